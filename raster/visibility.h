@@ -1,0 +1,48 @@
+// Per-tile visibility: which triangle is nearest at every sample point of a tile.
+#pragma once
+
+#include "raster/frame.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace rawtexel::raster {
+
+/// The sample points of one pass over a tile: one offset for all pixels, or one per pixel.
+struct TileSamples {
+    SampleOffset frame;                        ///< used where per_pixel is null
+    const SampleOffset* per_pixel = nullptr;   ///< row by row over the tile, tile_size per row
+};
+
+/// A tile's visibility: tile_size x tile_size entries, row by row. Pixels outside the frame hold no triangle.
+struct TileVisibility {
+    int tile_size = 0;
+    std::vector<uint32_t> triangle;   ///< setup index, or kNoTriangle
+    std::vector<float> depth;         ///< 1 near .. 0 far; 0 where there is no triangle
+    uint64_t hiz_rejected = 0;
+
+    void reset(int size);
+};
+
+/// A wave of candidate fragments of one triangle that pass the depth test so far: the 8x4 block whose upper left pixel is (x, y) of the frame.
+struct CandidateWave {
+    const SetupTriangle* triangle;
+    uint32_t setup_index;
+    int x, y;                         ///< pixels of the frame, multiples of 8 and 4
+    uint32_t mask;                    ///< lane = column + 8*row
+    const SampleOffset* offset;       ///< 32 sample offsets, by lane
+};
+
+/// Draws the bin of tile (tile_x, tile_y) into `out`. The winner at a sample is the greatest depth value (nearest), ties going to the
+/// smallest triangle_id, whatever the order of the bin: a total order. Opaque geometry is drawn first; for every other triangle
+/// `coverage(const CandidateWave&) -> uint32_t` returns the lanes of the mask that cover, called only for lanes in front so far.
+/// Coverage is exact: int64 edge functions at 1/512-pixel sample points, top-left rule (D3D11.3 3.4.1).
+///
+/// Defined in raster/visibility-inl.h, compiled into each caller's instruction set:
+///   template <class Coverage>
+///   void tile_visibility(const Frame&, int tile_x, int tile_y, const TileSamples&, Coverage&& coverage, TileVisibility& out);
+///
+/// This one draws with every candidate covering.
+void tile_visibility_opaque(const Frame& frame, int tile_x, int tile_y, const TileSamples& samples, TileVisibility& out);
+
+}  // namespace rawtexel::raster

@@ -1,0 +1,46 @@
+// Images on disk, through OpenImageIO: the one door behind which that library lives.
+#pragma once
+
+#include "scenes/load.h"
+#include "shading/image.h"
+#include "texunit/texel_source.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rawtexel::scenes {
+
+/// The output cannot be written. what() is one line naming the path.
+class OutputError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// An image as a texture: header checked now, pixels read on first use, kept as 8-bit, 16-bit or float RGBA. Grey becomes r = g = b.
+/// `srgb`: 8-bit colour is decoded by the sRGB curve (16-bit colour likewise, float is linear already).
+/// Throws InputError: missing, not a regular file, not an image, zero or over-large extents (1..16384), unsupported.
+std::unique_ptr<texunit::TexelSource> open_image(const std::string& path, bool srgb);
+std::unique_ptr<texunit::TexelSource> open_image_memory(std::string name, std::shared_ptr<const std::vector<std::byte>> encoded, bool srgb);
+
+/// The whole image as linear floats with its own channels. 8-bit and 16-bit integer images are decoded by the sRGB curve when `srgb_integers`.
+shading::Image read_image(const std::string& path, bool srgb_integers);
+
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+/// Writes 8-bit codes (1, 3 or 4 channels) under a temporary name and renames. Format by extension. Throws OutputError.
+void write_8bit(const std::string& path, int width, int height, int channels, std::span<const uint8_t> codes, const Metadata& metadata);
+/// Writes linear floats; further layers become "layer.channel" in OpenEXR, and are refused with OutputError elsewhere.
+void write_float(const std::string& path, const shading::Image& image, std::span<const shading::Layer> layers, const Metadata& metadata);
+/// PNG in memory, 8 or 16 bits a channel, `channels` 1..4.
+std::vector<std::byte> encode_png(int width, int height, int channels, int bits, std::span<const std::byte> pixels);
+
+/// True when the extension names a format that stores floats (.exr .hdr .pfm .tif …).
+bool is_float_format(const std::string& path);
+/// True when OpenImageIO can write the extension.
+bool is_writable_format(const std::string& path);
+
+}  // namespace rawtexel::scenes

@@ -1,0 +1,28 @@
+// Float images in memory.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace rawtexel::shading {
+
+/// Rows from top to bottom, channels interleaved. Linear values.
+struct Image {
+    int width = 0, height = 0, channels = 0;
+    std::vector<float> values;
+
+    Image() = default;
+    Image(int w, int h, int c) : width(w), height(h), channels(c), values(size_t(w) * size_t(h) * size_t(c)) {}
+    float* pixel(int x, int y) { return values.data() + (size_t(y) * size_t(width) + size_t(x)) * size_t(channels); }
+    const float* pixel(int x, int y) const { return values.data() + (size_t(y) * size_t(width) + size_t(x)) * size_t(channels); }
+};
+
+/// A named image of a render: a layer of an OpenEXR file. `channel_names` has one entry per channel, such as "R" "G" "B" or "Z".
+struct Layer {
+    std::string name;
+    std::vector<std::string> channel_names;
+    Image image;
+};
+
+}  // namespace rawtexel::shading

@@ -1,0 +1,72 @@
+// A frame: scene, camera and options in, linear radiance and layers out.
+#pragma once
+
+#include "raster/frame.h"
+#include "shading/executor.h"
+#include "shading/image.h"
+#include "shading/lighting.h"
+#include "shading/pixel_sampling.h"
+#include "shading/scene.h"
+#include "texunit/fetch_log.h"
+#include "texunit/sampler.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rawtexel::shading {
+
+/// Extra layers. Means over the samples, but Material and Lod: those of sample 0.
+enum class Aov { Depth, Normal, Albedo, Uv, Lod, Material, Texels, Spp };
+std::string_view to_string(Aov aov);              // depth normal albedo uv lod material texels spp
+std::optional<Aov> parse_aov(std::string_view text);
+
+struct Crop {
+    int x = 0, y = 0, width = 0, height = 0;      ///< pixels; zero extents: the whole frame
+};
+
+struct RenderOptions {
+    int width = 1280, height = 720;
+    Crop crop;
+    Camera camera;
+    int spp = 1;
+    PixelFilter pixel_filter = PixelFilter::Box;
+    PixelJitter pixel_jitter = PixelJitter::Frame;
+    uint32_t seed = 0;
+    /// Replace every map's own sampler; nullopt: what the scene says.
+    std::optional<texunit::Kernel> filter;
+    std::optional<texunit::MipMode> mip;
+    std::optional<glm::vec3> background;          ///< nullopt: the environment, black where there is none
+    std::vector<Aov> aovs;
+    bool count = false;                           ///< fill RenderResult::fetches
+    int tile_size = 64;                           ///< 32, 64 or 128
+};
+
+struct RenderTimes {
+    double geometry_s = 0, raster_s = 0, shade_s = 0;   ///< raster and shade summed over threads
+    double frame_s = 0;                                 ///< wall
+};
+
+struct RenderResult {
+    Image radiance;                               ///< 3 channels, crop extents
+    std::vector<Layer> layers;                    ///< one per requested AOV, in order
+    raster::FrameCounts geometry;
+    uint64_t samples_shaded = 0;                  ///< samples that saw a surface
+    std::vector<texunit::FetchCounts> fetches;    ///< per scene texture, when counted
+    RenderTimes times;
+};
+
+/// Called now and then from any thread with the share done, 0..1.
+using Progress = std::function<void(double)>;
+
+/// Lighting as the options ask, shadow map drawn. `shadows`: the first directional light casts.
+Lighting resolve_lighting(const Scene& scene, std::vector<Light> lights, float ambient, std::shared_ptr<const Environment> environment,
+                          bool shadows, Executor& executor);
+
+/// The same inputs give the same bits for any thread count and tile size; a crop has the bits of that part of the whole.
+/// Throws texunit::TextureError when a texture proves damaged.
+RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOptions& options, Executor& executor,
+                    const Progress& progress = {});
+
+}  // namespace rawtexel::shading

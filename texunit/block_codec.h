@@ -1,0 +1,15 @@
+// Block decoding: one 4x4 block of BC1-BC7 to sixteen texels of its storage class.
+#pragma once
+
+#include "texunit/format.h"
+
+#include <cstddef>
+
+namespace rawtexel::texunit {
+
+/// Decodes one block of a block-compressed `format` (8 or 16 bytes) into 16 texels of layout(format).storage, row by row.
+/// Any bit pattern decodes. BC6H and BC7 are bit exact (D3D11.3 19.5.14-15, reserved modes give zero); BC1-BC5 keep the exact
+/// rational interpolation as integer numerators (see TexelLayout).
+void decode_block(Format format, const std::byte* block, std::byte* texels);
+
+}  // namespace rawtexel::texunit

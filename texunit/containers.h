@@ -1,0 +1,47 @@
+// Files that hold texels ready for a texture unit: DDS and KTX2.
+#pragma once
+
+#include "texunit/texel_source.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace rawtexel::texunit {
+
+/// Bytes to read from, a file or memory. Sizes come from the actual file, never from a header inside it.
+class ByteSource {
+  public:
+    virtual ~ByteSource() = default;
+    virtual uint64_t size() const = 0;
+    /// Reads exactly `out.size()` bytes at `offset`; throws TextureError naming the file when they are not there. Thread-safe.
+    virtual void read(uint64_t offset, std::span<std::byte> out) const = 0;
+    virtual const std::string& name() const = 0;
+};
+
+/// A regular file read with pread; directories, devices and pipes are refused with a TextureError.
+std::shared_ptr<ByteSource> open_file(const std::string& path);
+/// Memory that the caller hands over.
+std::shared_ptr<ByteSource> open_memory(std::string name, std::vector<std::byte> bytes);
+
+/// What the first bytes say.
+enum class ContainerKind { None, Dds, Ktx2 };
+ContainerKind container_kind(const ByteSource& bytes);
+
+/// Limits against hostile files.
+struct ContainerLimits {
+    uint64_t max_texture_bytes = uint64_t{4} << 30;   ///< stored bytes after decompression
+};
+
+/// Parses and checks headers; payload is read block by block later. Throws TextureError: not that container, truncated, an extent
+/// of zero or above kMaxExtent, a format or supercompression that is not supported (named).
+/// `srgb`: nullopt keeps what the file says; otherwise the format is read as sRGB or linear, as glTF's use of the image asks.
+std::unique_ptr<TexelSource> open_dds(std::shared_ptr<const ByteSource> bytes, const ContainerLimits& limits = {});
+std::unique_ptr<TexelSource> open_ktx2(std::shared_ptr<const ByteSource> bytes, const ContainerLimits& limits = {});
+
+/// The same texels read as sRGB or as linear data, whatever the file declares; a source whose format has no such pair is returned as it is.
+std::unique_ptr<TexelSource> reinterpret_srgb(std::unique_ptr<TexelSource> source, bool srgb);
+
+}  // namespace rawtexel::texunit
