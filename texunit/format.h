@@ -59,17 +59,23 @@ Format with_srgb(Format format, bool srgb);
 uint64_t stored_bytes(Format format, int width, int height);
 
 /// How the fields of a decoded texel become numbers. For the packed classes channel c of a word is
-/// field = (word >> shift[c]) & mask[c]  (sign-extended when `is_signed`), then
+/// field = (word >> shift[c]) & mask[c]  (sign-extended from the mask's width when `is_signed`), then
 /// value = table[c] ? table[c][field] : max(field*scale_hi[c] + field*scale_lo[c], -1) + bias[c].
-/// scale_hi has so few bits that field*scale_hi is exact; the two terms together give the correctly rounded quotient.
-/// Half4 and Float4 hold the values themselves and ignore all of this but `constant`.
+/// scale_hi has so few bits that field*scale_hi is exact; the two rounded operations together give the correctly rounded quotient
+/// field / denominator[c] for every field that a decoder produces.
+/// Half4 and Float4 hold the four values themselves, missing channels written out as 0 and missing alpha as 1, and ignore the rest.
+///
+/// Fields: 8- and 16-bit formats hold their codes, channel c at bit 8*c or 16*c. BC1 and BC2 hold R/186 at bit 0, G/378 at bit 8,
+/// B/186 at bit 17 (thirds and halves of 5- and 6-bit endpoints) and A/1 or A/15 at bit 25. BC3 holds the same colours and A/8925 in
+/// 16-bit fields; BC4 and BC5 hold n/8925 (fifths and sevenths of 8-bit endpoints: 255*35) or, signed, n/4445 (127*35).
 struct TexelLayout {
     StorageClass storage;
     bool is_signed;
     uint8_t shift[4];        ///< bits, 0..63
     uint32_t mask[4];        ///< 0 for a channel that is not stored
     float scale_hi[4], scale_lo[4], bias[4];   ///< bias is 1 for the missing alpha, else 0
-    const float* table[4];   ///< linear values by field, for sRGB; null where the scale holds
+    const float* table[4];   ///< linear values by field, mask[c] + 1 of them, for sRGB; null where the scale holds
+    int denominator[4];      ///< the field that means 1.0; 0 for a channel that is not stored
 };
 
 const TexelLayout& layout(Format format);
