@@ -2,9 +2,6 @@
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 find_package(hwy CONFIG REQUIRED)
-# Private to our own builds; an installed package does not name it.
-add_library(rawtexel_warnings_build INTERFACE)
-target_link_libraries(rawtexel_warnings_build INTERFACE $<BUILD_INTERFACE:rawtexel_warnings>)
 
 if(RAWTEXEL_APPS)
   find_package(glm CONFIG REQUIRED)

@@ -15,7 +15,7 @@ function(rawtexel_room name)
   set_target_properties(rawtexel_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(rawtexel_${name} PUBLIC
     "$<BUILD_INTERFACE:${root}>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/rawtexel>")
-  target_link_libraries(rawtexel_${name} PUBLIC rawtexel_flags)
+  target_link_libraries(rawtexel_${name} PUBLIC rawtexel_flags PRIVATE $<BUILD_INTERFACE:rawtexel_warnings>)
   foreach(known IN LISTS ROOM_KNOWS)
     target_link_libraries(rawtexel_${name} PUBLIC rawtexel_${known})
   endforeach()
