@@ -1,0 +1,85 @@
+#include "cli/commands/list.h"
+
+#include "cli/option_values.h"
+#include "cli/stats.h"
+#include "scenes/builtin.h"
+#include "texunit/format.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace rawtexel::cli {
+namespace {
+
+struct Entry {
+    std::string name, description;
+};
+using Entries = std::vector<Entry>;
+
+template <class Range>
+Entries entries_of(const Range& range) {
+    Entries entries;
+    for (const auto& item : range) entries.push_back({std::string(item.name), std::string(item.description)});
+    return entries;
+}
+
+Entries filter_entries() {
+    return {{"scene", "what the file's sampler says, bilinear where it is silent"},
+            {"nearest", "the one texel that the coordinate lies in"},
+            {"bilinear", "the four nearest texels, weighted by a tent one texel wide"}};
+}
+
+Entries entries_for(const std::string& subject) {
+    switch (parse_word("list", subject, {"scenes", "filters", "formats", "counters"})) {
+        case 0: return entries_of(scenes::builtin_scenes());
+        case 1: return filter_entries();
+        case 2: return entries_of(texunit::all_formats());
+        default: return entries_of(all_counters());
+    }
+}
+
+std::string print_json(const Entries& entries) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Entry& entry : entries) list.push_back({{"name", entry.name}, {"description", entry.description}});
+    return list.dump(2) + "\n";
+}
+
+std::string print_lines(const Entries& entries) {
+    size_t column = 0;
+    for (const Entry& entry : entries) column = std::max(column, entry.name.size() + 2);
+    std::string text;
+    for (Entry entry : entries) {
+        entry.name.resize(column, ' ');
+        text += entry.name + entry.description + "\n";
+    }
+    return text;
+}
+
+class ListCommand : public Command {
+  public:
+    std::string_view name() const override { return "list"; }
+    std::string_view usage() const override { return "list scenes|filters|formats|counters [--json]"; }
+    std::string_view summary() const override { return "Lists built-in scenes, texture filters, texel formats or counters, one a line."; }
+
+    void declare(CommandLine& line) override {
+        line.arguments("SUBJECT", "scenes, filters, formats or counters", 1, 1, words_);
+        line.flag("--json", "an array of objects with \"name\" and \"description\"", json_);
+    }
+
+    int run(const Invocation& invocation) override {
+        const Entries entries = entries_for(words_[0]);
+        invocation.out << (json_ ? print_json(entries) : print_lines(entries));
+        return kDone;
+    }
+
+  private:
+    std::vector<std::string> words_;
+    bool json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_list_command() { return std::make_unique<ListCommand>(); }
+
+}  // namespace rawtexel::cli

@@ -1,0 +1,191 @@
+#include "cli/commands/render.h"
+
+#include "cli/illumination.h"
+#include "cli/image_output.h"
+#include "cli/metadata.h"
+#include "cli/option_values.h"
+#include "cli/output_file.h"
+#include "cli/progress.h"
+#include "cli/render_options.h"
+#include "cli/run_record.h"
+#include "cli/scenario.h"
+#include "cli/stats.h"
+#include "cli/view.h"
+#include "scenes/load.h"
+#include "shading/render.h"
+
+#include <optional>
+
+namespace rawtexel::cli {
+namespace {
+
+constexpr int kMaxRepeats = 100000;
+
+void choose_instruction_set(texunit::Simd simd) {
+    if (texunit::choose_simd(simd)) return;
+    std::string available;
+    for (const texunit::Simd set : texunit::available_simd()) available += (available.empty() ? "" : " ") + std::string(to_string(set));
+    throw UsageError("--simd: " + std::string(to_string(simd)) + " is not available on this machine (" + available + ")");
+}
+
+shading::RenderOptions frame_options(const RenderRequest& request, const shading::Camera& camera, std::vector<shading::Aov> aovs, bool count) {
+    shading::RenderOptions options;
+    options.width = request.image_size().width;
+    options.height = request.image_size().height;
+    options.crop = request.crop;
+    options.camera = camera;
+    options.spp = request.samples.spp;
+    options.pixel_filter = request.samples.pixel_filter;
+    options.pixel_jitter = request.samples.pixel_jitter;
+    options.seed = request.samples.seed;
+    options.filter = request.lookup.filter;
+    options.mip = request.lookup.mip;
+    options.background = request.light.background;
+    options.aovs = std::move(aovs);
+    options.count = count;
+    options.tile_size = request.machine.tile_size;
+    return options;
+}
+
+double sample_count(const shading::RenderOptions& options) {
+    const bool cropped = options.crop.width > 0;
+    const double width = cropped ? options.crop.width : options.width, height = cropped ? options.crop.height : options.height;
+    return width * height * options.spp;
+}
+
+void print_fetches(std::ostream& out, const shading::RenderResult& result) {
+    const texunit::FetchCounts fetches = total_fetches(result);
+    out << "Fetches: " << fetches.lookups << " lookups, " << fetches.taps << " taps, " << fetches.texels_requested << " texels";
+    if (result.samples_shaded > 0)
+        out << " (" << print_quantity(double(fetches.texels_requested) / double(result.samples_shaded)) << "per shaded sample)";
+    out << '\n';
+}
+
+class RenderCommand : public Command {
+  public:
+    std::string_view name() const override { return "render"; }
+    std::string_view usage() const override { return "render SCENE -o FILE [options]"; }
+    std::string_view summary() const override {
+        return "Renders a scene to an image whose format follows the extension: .exr .hdr .pfm .tif hold linear radiance in floats; .png .jpg "
+               "and the like get exposure, tone map and transfer in 8 bits.";
+    }
+
+    void declare(CommandLine& line) override {
+        line.arguments("SCENE", "a .gltf or .glb file, or a built-in scene (rawtexel list scenes)", 0, 1, words_);
+        line.option("-o,--output", "FILE", "the image to write", [this](const std::string& text) { output_ = text; });
+        line.option("--scenario", "JSON", "scene, output, camera and environment as google/model-viewer's fidelity tools pass them; options beside it win",
+                    [this](const std::string& text) { scenario_ = parse_scenario(text); });
+        declare_render_options(line, request_);
+        line.group("More output");
+        line.option("--aov", "LIST", "layers of an .exr: any of depth,normal,albedo,uv,lod,material,texels,spp",
+                    [this](const std::string& text) { aovs_ = parse_aovs(text); });
+        line.flag("--count", "count lookups, taps and texels", count_);
+        line.option("--stats", "FILE", "the run's numbers as JSON", [this](const std::string& text) { stats_ = text; });
+        line.option("--repeat", "N", "render the frame N times for its timing; image and counters are the first's (default 1)",
+                    [this](const std::string& text) { repeats_ = int(parse_integer("--repeat", text, 1, kMaxRepeats)); });
+    }
+
+    int run(const Invocation& invocation) override;
+
+  private:
+    void settle_words();
+    void check_outputs(const Invocation& invocation) const;
+    shading::RenderResult render_frames(const shading::Scene& scene, const shading::Lighting& lighting, const shading::RenderOptions& options,
+                                        shading::Executor& executor, const Invocation& invocation, RunRecord& record) const;
+
+    std::vector<std::string> words_;
+    std::string scene_, output_, stats_;
+    std::optional<Scenario> scenario_;
+    RenderRequest request_;
+    std::vector<shading::Aov> aovs_;
+    bool count_ = false;
+    int repeats_ = 1;
+};
+
+// Scene, output and request from everything that was given, in whatever order.
+void RenderCommand::settle_words() {
+    if (scenario_) {
+        if (!words_.empty()) throw UsageError("--scenario names its model itself: unexpected argument '" + words_[0] + "'");
+        scene_ = scenario_->model;
+        if (output_.empty()) output_ = scenario_->output_file;
+        apply(*scenario_, request_);
+    } else {
+        if (words_.empty()) throw UsageError("missing argument SCENE (usage: rawtexel " + std::string(usage()) + ")");
+        scene_ = words_[0];
+    }
+    if (output_.empty()) throw UsageError("-o FILE is missing (usage: rawtexel " + std::string(usage()) + ")");
+    settle(request_);
+}
+
+// Before a long render: the format is known, the places can be written.
+void RenderCommand::check_outputs(const Invocation& invocation) const {
+    check_image_format("-o", output_);
+    if (!aovs_.empty() && !stores_layers(output_)) throw UsageError("--aov: '" + output_ + "' cannot hold layers, the format that can is '.exr'");
+    const ToneOptions& tone = request_.tone;
+    const bool tone_asked = tone.exposure || tone.transfer || (tone.tone_map && !request_.light.peer_shading);
+    if (tone_asked && scenes::is_float_format(output_))
+        warn(invocation, output_ + ": --exposure, --tonemap and --transfer change nothing here, the format holds linear radiance");
+    check_output(output_);
+    if (!stats_.empty()) check_output(stats_);
+}
+
+// The first frame counts; the others are for the clock alone.
+shading::RenderResult RenderCommand::render_frames(const shading::Scene& scene, const shading::Lighting& lighting,
+                                                   const shading::RenderOptions& options, shading::Executor& executor,
+                                                   const Invocation& invocation, RunRecord& record) const {
+    ProgressReport progress(invocation.err, request_.machine.progress, invocation.err_is_terminal, sample_count(options) * repeats_);
+    shading::RenderResult first;
+    for (int repeat = 0; repeat < repeats_; ++repeat) {
+        shading::RenderResult result = shading::render(scene, lighting, options, executor,
+                                                       [&](double share) { progress.update((repeat + share) / repeats_); });
+        record.times.frame_s.push_back(result.times.frame_s);
+        if (repeat > 0) continue;
+        record.work = texture_work(scene);
+        first = std::move(result);
+    }
+    progress.finish();
+    return first;
+}
+
+int RenderCommand::run(const Invocation& invocation) {
+    const double start = ProgressReport::steady_seconds();
+    settle_words();
+    check_outputs(invocation);
+    choose_instruction_set(request_.machine.simd);
+    const auto executor = shading::make_executor(shading::default_executor_kind(), request_.machine.threads);
+
+    scenes::LoadOptions load_options;
+    load_options.texture.mip_storage = request_.lookup.mip_storage;
+    load_options.warn = [&](const std::string& what) { warn(invocation, what); };
+    const shading::Scene scene = scenes::load(scene_, load_options);
+    const ImageSize size = request_.image_size();
+    const View view = choose_view(scene, request_.view, float(size.width) / float(size.height));
+    const shading::Lighting lighting = make_lighting(scene, request_.light, *executor);
+
+    RunRecord record;
+    record.scene = scene_;
+    record.command = invocation.command_line;
+    record.view = view.options;
+    record.request = request_;
+    record.times.load_s = ProgressReport::steady_seconds() - start;
+    const shading::RenderOptions options = frame_options(request_, view.camera, aovs_, count_);
+    record.result = render_frames(scene, lighting, options, *executor, invocation, record);
+
+    const double write_start = ProgressReport::steady_seconds();
+    write_image(output_, record.result.radiance, record.result.layers, request_.tone, image_metadata(record));
+    const double end = ProgressReport::steady_seconds();
+    record.times.write_s = end - write_start;
+    record.times.total_s = end - start;
+    if (!stats_.empty()) write_text(stats_, stats_json(record, scene));
+
+    invocation.out << "Camera: " << view.options << '\n';
+    if (count_) print_fetches(invocation.out, record.result);
+    invocation.out << "Saved: " << output_ << '\n';
+    return kDone;
+}
+
+}  // namespace
+
+std::unique_ptr<Command> make_render_command() { return std::make_unique<RenderCommand>(); }
+
+}  // namespace rawtexel::cli

@@ -1,0 +1,31 @@
+#include "cli/metadata.h"
+
+#include "cli/version.h"
+
+namespace rawtexel::cli {
+
+scenes::Metadata image_metadata(const RunRecord& record) {
+    const RenderRequest& request = record.request;
+    scenes::Metadata metadata{
+        {"Software", "rawtexel " + std::string(version())},
+        {"ImageDescription", record.command},
+        {"rawtexel:version", std::string(version())},
+        {"rawtexel:command", record.command},
+        {"rawtexel:scene", record.scene},
+        {"rawtexel:camera", record.view},
+        {"rawtexel:seed", std::to_string(request.samples.seed)},
+        {"rawtexel:spp", std::to_string(request.samples.spp)},
+        {"rawtexel:pixel-filter", std::string(to_string(request.samples.pixel_filter))},
+        {"rawtexel:filter", print_filter(request.lookup.filter)},
+        {"rawtexel:mip", print_mip(request.lookup.mip)},
+    };
+    if (!record.result.fetches.empty()) {
+        const texunit::FetchCounts fetches = total_fetches(record.result);
+        metadata.emplace_back("rawtexel:lookups", std::to_string(fetches.lookups));
+        metadata.emplace_back("rawtexel:taps", std::to_string(fetches.taps));
+        metadata.emplace_back("rawtexel:texels_requested", std::to_string(fetches.texels_requested));
+    }
+    return metadata;
+}
+
+}  // namespace rawtexel::cli

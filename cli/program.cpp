@@ -1,0 +1,138 @@
+#include "cli/program.h"
+
+#include "cli/command.h"
+#include "cli/commands/compare.h"
+#include "cli/commands/export.h"
+#include "cli/commands/list.h"
+#include "cli/commands/render.h"
+#include "cli/run_record.h"
+#include "cli/spelling.h"
+#include "cli/version.h"
+#include "scenes/image_io.h"
+#include "scenes/load.h"
+#include "scenes/spelling.h"
+#include "texunit/texel_source.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <new>
+#include <optional>
+
+namespace rawtexel::cli {
+namespace {
+
+using Words = std::vector<std::string>;
+using Commands = std::array<std::unique_ptr<Command>, 4>;
+
+Commands all_commands() { return {make_render_command(), make_compare_command(), make_list_command(), make_export_command()}; }
+
+std::vector<std::string> names_of(const Commands& commands) {
+    std::vector<std::string> names;
+    for (const auto& command : commands) names.emplace_back(command->name());
+    return names;
+}
+
+CommandLine& declare(CommandLine& line, Command& command) {
+    command.declare(line);
+    return line;
+}
+
+std::string program_help(const Commands& commands) {
+    std::string text = "Usage: rawtexel COMMAND ...\n\nA software rasterizer whose subject is the texture unit.\n\nCommands:\n";
+    for (const auto& command : commands) {
+        std::string left = "  " + std::string(command->name());
+        left.resize(12, ' ');
+        text += left + wrap_text(command->summary(), 98, 12) + "\n";
+    }
+    return text +
+           "\n`rawtexel COMMAND --help` lists a command's options. The order of words does not matter.\n\n"
+           "Options:\n  -h,--help   this text\n  --version   the program's version\n\n"
+           "Exit codes: 0 done, 1 a check asked for did not hold, 2 wrong usage, 3 input could not be read or is invalid,\n"
+           "            4 output could not be written.\n";
+}
+
+// The command is the first word that names one and is not the value of the option before it: options may come first.
+std::optional<size_t> find_command_word(const Words& words, const Commands& commands, size_t& which) {
+    for (size_t i = 0; i < words.size(); ++i) {
+        const auto found = std::ranges::find(commands, words[i], [](const auto& command) { return command->name(); });
+        if (found == commands.end()) continue;
+        CommandLine line{"", ""};
+        if (i > 0 && declare(line, **found).takes_value(words[i - 1])) continue;
+        which = size_t(found - commands.begin());
+        return i;
+    }
+    return std::nullopt;
+}
+
+[[noreturn]] void throw_no_command(const Words& words, const Commands& commands) {
+    const Words names = names_of(commands);
+    const auto named = std::ranges::find_if(words, [](const std::string& word) { return !word.starts_with('-'); });
+    if (named != words.end()) {
+        std::string all;
+        for (const std::string& name : names) all += (all.empty() ? "" : " ") + name;
+        throw UsageError("unknown command '" + *named + "', the nearest is '" + nearest_spelling(*named, names) + "' (" + all + ")");
+    }
+    if (words.empty()) throw UsageError("no command given; `rawtexel --help` lists them");
+    throw UsageError("unknown option '" + words[0] + "', the nearest is '" + nearest_spelling(words[0], Words{"--help", "--version"}) + "'");
+}
+
+int dispatch(const Words& words, const Invocation& invocation) {
+    const Commands commands = all_commands();
+    size_t which = 0;
+    const std::optional<size_t> at = find_command_word(words, commands, which);
+    if (!at) {
+        const auto given = [&](std::string_view word) { return std::ranges::find(words, word) != words.end(); };
+        if (given("--version")) invocation.out << "rawtexel " << version() << '\n';
+        else if (given("--help") || given("-h")) invocation.out << program_help(commands);
+        else throw_no_command(words, commands);
+        return kDone;
+    }
+    Words rest = words;
+    rest.erase(rest.begin() + std::ptrdiff_t(*at));
+    Command& command = *commands[which];
+    CommandLine line{std::string(command.usage()), std::string(command.summary())};
+    if (declare(line, command).parse(rest)) return command.run(invocation);
+    invocation.out << line.help();
+    return kDone;
+}
+
+int fail(std::ostream& err, ExitCode code, const std::string& what) {
+    err << "rawtexel: error: " << scenes::one_line(what) << '\n' << std::flush;
+    return code;
+}
+
+Words with_program_name(const Words& words) {
+    Words all{"rawtexel"};
+    all.insert(all.end(), words.begin(), words.end());
+    return all;
+}
+
+}  // namespace
+
+int run_program(const Words& words, std::ostream& out, std::ostream& err, bool err_is_terminal) {
+    try {
+        const int code = dispatch(words, {shell_quoted(with_program_name(words)), out, err, err_is_terminal});
+        if (!out.flush()) return fail(err, kCannotWrite, "standard output: cannot be written");
+        return code;
+    } catch (const UsageError& error) {
+        return fail(err, kWrongUsage, error.what());
+    } catch (const scenes::OutputError& error) {
+        return fail(err, kCannotWrite, error.what());
+    } catch (const scenes::InputError& error) {
+        return fail(err, kBadInput, error.what());
+    } catch (const texunit::TextureError& error) {
+        return fail(err, kBadInput, error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(err, kBadInput, "the input needs more memory than there is");
+    } catch (const std::exception& error) {
+        // Nothing else is expected; what fails here was brought up by the input.
+        return fail(err, kBadInput, std::string("unexpected: ") + error.what());
+    }
+}
+
+void warn(const Invocation& invocation, const std::string& what) {
+    invocation.err << "rawtexel: warning: " << scenes::one_line(what) << '\n' << std::flush;
+}
+
+}  // namespace rawtexel::cli

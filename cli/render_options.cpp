@@ -1,0 +1,257 @@
+#include "cli/render_options.h"
+
+#include "cli/option_values.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <sstream>
+
+namespace rawtexel::cli {
+namespace {
+
+using shading::Aov;
+using texunit::Kernel;
+using texunit::MipMode;
+
+constexpr int kMaxImageExtent = 16384;   // pixels
+constexpr int kMaxSamples = 1 << 20;
+constexpr int kMaxThreads = 1024;
+
+template <class T>
+std::string print_or_scene(const std::optional<T>& value) {
+    return value ? std::string(to_string(*value)) : "scene";
+}
+
+// "scene" is no member of the enumerations below: it stands for the absence of a choice.
+template <class T>
+std::optional<T> parse_or_scene(std::string_view option, std::string_view text, std::initializer_list<T> all) {
+    std::vector<std::string> names{"scene"};
+    if (text == names[0]) return std::nullopt;
+    for (const T value : all) {
+        if (to_string(value) == text) return value;
+        names.emplace_back(to_string(value));
+    }
+    throw unknown_value(option, text, names);
+}
+
+void declare_image_options(CommandLine& line, RenderRequest& request) {
+    line.group("Image");
+    line.option("--size", "WxH", "extents in pixels, 1 to 16384 (default 1280x720)",
+                [&](const std::string& text) { request.size = parse_size(text); });
+    line.option("--crop", "X,Y,W,H", "only this part of the image; its pixels are those of the whole",
+                [&](const std::string& text) { request.crop = parse_crop(text); });
+}
+
+void declare_view_options(CommandLine& line, ViewOptions& view) {
+    line.group("Camera (default: the scene's first, else 45 degrees along (-1, -0.6, -1), the whole scene in view)");
+    line.option("--camera", "NAME|INDEX", "one of the scene's cameras", [&](const std::string& text) { view.camera = text; });
+    line.option("--orbit", "YAW,PITCH[,ZOOM]", "on a sphere about the scene's centre, in degrees; at ZOOM 1 the scene just fits",
+                [&](const std::string& text) { view.orbit = parse_orbit(text); });
+    line.option("--eye", "X,Y,Z", "where the camera is", [&](const std::string& text) { view.eye = parse_vector("--eye", text); });
+    line.option("--target", "X,Y,Z", "what it looks at (default: the scene's centre)",
+                [&](const std::string& text) { view.target = parse_vector("--target", text); });
+    line.option("--fov", "DEGREES", "vertical field of view, 0.01 to 179",
+                [&](const std::string& text) { view.fov = parse_number("--fov", text, 0.01f, 179.0f); });
+}
+
+void declare_light_options(CommandLine& line, LightOptions& light) {
+    line.group("Light");
+    line.option("--light", "X,Y,Z[,I]", "one directional light instead of the scene's: the way it travels, and its intensity in lux (default 3)",
+                [&](const std::string& text) { light.light = parse_light(text); });
+    line.option("--ambient", "A", "adds A x base colour x occlusion (default 0)",
+                [&](const std::string& text) { light.ambient = parse_number("--ambient", text, 0.0f); });
+    line.option("--shadows", "on|off", "of the first directional light (default on)",
+                [&](const std::string& text) { light.shadows = parse_word("--shadows", text, {"on", "off"}) == 0; });
+    line.option("--environment", "sky|none|FILE", "light from all around; FILE is a lat-long image (default: sky where the scene has no lights, else none)",
+                [&](const std::string& text) { light.environment = parse_environment(text); });
+    line.option("--background", "environment|R,G,B", "what shows where nothing is, in linear radiance (default environment)",
+                [&](const std::string& text) { light.background = parse_background(text); });
+    line.flag("--peer-shading", "light as simple viewers draw it: the scene's directional light or --light -0.4,-1,-0.3,3, and --ambient 0.1 "
+                                "--shadows off --environment none --tonemap none; options beside it win", light.peer_shading);
+}
+
+void declare_lookup_options(CommandLine& line, LookupOptions& lookup) {
+    line.group("Texture unit");
+    line.option("--filter", "NAME", "scene (what the file's samplers say; the default), nearest or bilinear",
+                [&](const std::string& text) { lookup.filter = parse_filter(text); });
+    line.option("--mip", "MODE", "scene (the default), linear, nearest or none: between which levels a minified lookup reads",
+                [&](const std::string& text) { lookup.mip = parse_mip(text); });
+    line.option("--mip-storage", "source|float", "generated levels rounded to the image's own format (the default), or kept in float",
+                [&](const std::string& text) { lookup.mip_storage = parse_mip_storage(text); });
+}
+
+void declare_sample_options(CommandLine& line, SampleOptions& samples) {
+    line.group("Sampling");
+    line.option("--spp", "N", "samples per pixel (default 1); sample n is the same whatever N",
+                [&](const std::string& text) { samples.spp = int(parse_integer("--spp", text, 1, kMaxSamples)); });
+    line.option("--pixel-filter", "box|tent|gaussian", "weight of a sample by its distance from the pixel's centre (default box)",
+                [&](const std::string& text) {
+                    using shading::PixelFilter;
+                    samples.pixel_filter = parse_choice("--pixel-filter", text, {PixelFilter::Box, PixelFilter::Tent, PixelFilter::Gaussian});
+                });
+    line.option("--pixel-jitter", "frame|pixel", "one offset per sample for all pixels, sample 0 at the centre (the default), or one per pixel",
+                [&](const std::string& text) {
+                    using shading::PixelJitter;
+                    samples.pixel_jitter = parse_choice("--pixel-jitter", text, {PixelJitter::Frame, PixelJitter::Pixel});
+                });
+    line.option("--seed", "S", "of all random numbers (default 0)",
+                [&](const std::string& text) { samples.seed = uint32_t(parse_integer("--seed", text, 0, UINT32_MAX)); });
+}
+
+void declare_tone_options(CommandLine& line, ToneOptions& tone) {
+    line.group("Display (formats of 8 bits; float formats hold linear radiance)");
+    line.option("--exposure", "EV", "radiance times 2^EV, -64 to 64 (default 0)",
+                [&](const std::string& text) { tone.exposure = parse_number("--exposure", text, -64.0f, 64.0f); });
+    line.option("--tonemap", "aces|reinhard|none", "(default aces)", [&](const std::string& text) {
+        using shading::ToneMap;
+        tone.tone_map = parse_choice("--tonemap", text, {ToneMap::Aces, ToneMap::Reinhard, ToneMap::None});
+    });
+    line.option("--transfer", "srgb|sqrt|linear", "how light becomes codes (default srgb)", [&](const std::string& text) {
+        using shading::Transfer;
+        tone.transfer = parse_choice("--transfer", text, {Transfer::Srgb, Transfer::Sqrt, Transfer::Linear});
+    });
+}
+
+void declare_machine_options(CommandLine& line, MachineOptions& machine) {
+    line.group("Machine (the image is the same whatever these say)");
+    line.option("--threads", "N", "(default: all cores)",
+                [&](const std::string& text) { machine.threads = int(parse_integer("--threads", text, 1, kMaxThreads)); });
+    line.option("--tile-size", "N", "32, 64 or 128 pixels (default 64)", [&](const std::string& text) {
+        constexpr std::array kTileSizes{32, 64, 128};
+        machine.tile_size = kTileSizes[parse_word("--tile-size", text, {"32", "64", "128"})];
+    });
+    line.option("--simd", "auto|scalar|sse4|avx2|avx3", "the instruction set (default auto: the best there is)", [&](const std::string& text) {
+        using texunit::Simd;
+        machine.simd = parse_choice("--simd", text, {Simd::Auto, Simd::Scalar, Simd::Sse4, Simd::Avx2, Simd::Avx3});
+    });
+    line.option("--progress", "auto|always|never", "a bar on a terminal, percent lines elsewhere; auto shows it only when it takes a while (default auto)",
+                [&](const std::string& text) {
+                    machine.progress = parse_choice("--progress", text, {ProgressMode::Auto, ProgressMode::Always, ProgressMode::Never});
+                });
+}
+
+void check_crop(const shading::Crop& crop, const ImageSize& size) {
+    if (crop.width == 0) return;
+    if (crop.x + crop.width > size.width || crop.y + crop.height > size.height)
+        throw UsageError("--crop: " + print(crop) + " reaches outside the image of " + print(size));
+}
+
+void check_view(const ViewOptions& view) {
+    if (view.camera && view.orbit) throw UsageError("--camera and --orbit exclude each other");
+    if (view.orbit && view.eye) throw UsageError("--orbit and --eye exclude each other");
+}
+
+// What a plain viewer with one light and no tone map draws. The light itself depends on the scene: see make_lighting.
+void preset_peer_shading(RenderRequest& request) {
+    LightOptions& light = request.light;
+    if (!light.ambient) light.ambient = 0.1f;
+    if (!light.shadows) light.shadows = false;
+    if (!light.environment) light.environment = EnvironmentOption{EnvironmentKind::None, {}};
+    if (!request.tone.tone_map) request.tone.tone_map = shading::ToneMap::None;
+}
+
+}  // namespace
+
+ImageSize parse_size(std::string_view text) {
+    const size_t separator = text.find('x');
+    if (separator == std::string_view::npos) throw UsageError("--size: '" + std::string(text) + "' is not WxH, such as 1280x720");
+    const auto extent = [&](std::string_view part) { return int(parse_integer("--size", part, 1, kMaxImageExtent)); };
+    return {extent(text.substr(0, separator)), extent(text.substr(separator + 1))};
+}
+
+std::string print(const ImageSize& size) { return std::to_string(size.width) + "x" + std::to_string(size.height); }
+
+shading::Crop parse_crop(std::string_view text) {
+    const std::vector<int64_t> values = parse_integers("--crop", text, "X,Y,W,H", 4, 0, kMaxImageExtent);
+    if (values[2] == 0 || values[3] == 0) throw UsageError("--crop: '" + std::string(text) + "' is empty");
+    return {int(values[0]), int(values[1]), int(values[2]), int(values[3])};
+}
+
+std::string print(const shading::Crop& crop) {
+    std::ostringstream text;
+    text << crop.x << ',' << crop.y << ',' << crop.width << ',' << crop.height;
+    return text.str();
+}
+
+Orbit parse_orbit(std::string_view text) {
+    const std::vector<float> values = parse_numbers("--orbit", text, "YAW,PITCH[,ZOOM]", 2, 3);
+    const Orbit orbit{values[0], values[1], values.size() == 3 ? values[2] : 1.0f};
+    if (orbit.zoom <= 0.0f) throw UsageError("--orbit: '" + std::string(text) + "' has a ZOOM of 0 or less");
+    return orbit;
+}
+
+std::string print(const Orbit& orbit) { return print_vector({orbit.yaw, orbit.pitch, orbit.zoom}); }
+
+SunOption parse_light(std::string_view text) {
+    const std::vector<float> values = parse_numbers("--light", text, "X,Y,Z[,I]", 3, 4);
+    SunOption light;
+    light.direction = {values[0], values[1], values[2]};
+    if (values.size() == 4) light.intensity = values[3];
+    if (light.direction == glm::vec3(0.0f)) throw UsageError("--light: '" + std::string(text) + "' has no direction");
+    if (light.intensity < 0.0f) throw UsageError("--light: '" + std::string(text) + "' has a negative intensity");
+    return light;
+}
+
+std::string print(const SunOption& light) { return print_vector(light.direction) + "," + print_number(light.intensity); }
+
+EnvironmentOption parse_environment(std::string_view text) {
+    if (text == "sky") return {EnvironmentKind::Sky, {}};
+    if (text == "none") return {EnvironmentKind::None, {}};
+    return {EnvironmentKind::File, std::string(text)};
+}
+
+std::string print(const EnvironmentOption& environment) {
+    if (environment.kind == EnvironmentKind::File) return environment.file;
+    return environment.kind == EnvironmentKind::Sky ? "sky" : "none";
+}
+
+std::optional<glm::vec3> parse_background(std::string_view text) {
+    if (text == "environment") return std::nullopt;
+    if (!text.empty() && std::isalpha(static_cast<unsigned char>(text[0]))) parse_word("--background", text, {"environment"});
+    return parse_vector("--background", text, "environment or R,G,B");
+}
+
+std::optional<Kernel> parse_filter(std::string_view text) { return parse_or_scene("--filter", text, {Kernel::Nearest, Kernel::Bilinear}); }
+
+std::string print_filter(const std::optional<Kernel>& filter) { return print_or_scene(filter); }
+
+std::optional<MipMode> parse_mip(std::string_view text) {
+    return parse_or_scene("--mip", text, {MipMode::Linear, MipMode::Nearest, MipMode::None});
+}
+
+std::string print_mip(const std::optional<MipMode>& mip) { return print_or_scene(mip); }
+
+texunit::MipStorage parse_mip_storage(std::string_view text) {
+    return parse_word("--mip-storage", text, {"source", "float"}) == 0 ? texunit::MipStorage::Source : texunit::MipStorage::Float;
+}
+
+std::string print(texunit::MipStorage storage) { return storage == texunit::MipStorage::Source ? "source" : "float"; }
+
+std::vector<Aov> parse_aovs(std::string_view text) {
+    std::vector<Aov> aovs;
+    for (const std::string& word : split(text, ',')) {
+        const Aov aov = parse_choice("--aov", word, {Aov::Depth, Aov::Normal, Aov::Albedo, Aov::Uv, Aov::Lod, Aov::Material, Aov::Texels, Aov::Spp});
+        if (std::ranges::find(aovs, aov) != aovs.end()) throw UsageError("--aov: '" + word + "' is named twice");
+        aovs.push_back(aov);
+    }
+    return aovs;
+}
+
+void declare_render_options(CommandLine& line, RenderRequest& request) {
+    declare_image_options(line, request);
+    declare_view_options(line, request.view);
+    declare_light_options(line, request.light);
+    declare_lookup_options(line, request.lookup);
+    declare_sample_options(line, request.samples);
+    declare_tone_options(line, request.tone);
+    declare_machine_options(line, request.machine);
+}
+
+void settle(RenderRequest& request) {
+    check_crop(request.crop, request.image_size());
+    check_view(request.view);
+    if (request.light.peer_shading) preset_peer_shading(request);
+}
+
+}  // namespace rawtexel::cli
