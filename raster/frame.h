@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -27,55 +28,77 @@ struct Draw {
     uint32_t vertex_count = 0;
     const uint32_t* indices = nullptr;        ///< 3 per triangle, each < vertex_count (asserted)
     uint32_t triangle_count = 0;
-    glm::mat4 clip_from_object{1.0f};         ///< reversed depth: z_clip/w_clip is 1 at the near plane and falls to 0 far away
+    /// Clip space as Vulkan's but y up: x_clip/w_clip is -1 at the left and 1 at the right, y_clip/w_clip 1 at the top and -1 at the
+    /// bottom. Reversed depth: z_clip/w_clip is 1 at the near plane and falls to 0 far away. Visible is 0 <= z_clip <= w_clip.
+    glm::mat4 clip_from_object{1.0f};
     uint32_t first_triangle_id = 0;           ///< scene-order id of the first triangle; ids of a frame are distinct
     CoverageClass coverage = CoverageClass::Opaque;
     CullMode cull = CullMode::Back;
-    bool front_is_clockwise = false;          ///< true when the transform mirrors (odd negative scale)
+    /// Front faces are counter-clockwise as seen on the screen; clockwise when the transform mirrors (odd negative scale).
+    bool front_is_clockwise = false;
 };
 
 struct FrameOptions {
     int width = 0, height = 0;                ///< pixels of the whole frame, 1..16384
     int crop_x = 0, crop_y = 0, crop_width = 0, crop_height = 0;   ///< only tiles that touch it are binned; zero extents mean the whole frame
-    int tile_size = 64;                       ///< pixels, a multiple of 8
+    int tile_size = 64;                       ///< pixels, a multiple of 8; tiles are aligned to the whole frame whatever the crop
     /// Farthest a sample point lies from its pixel's centre along one axis, pixels. Conservative tests are widened by it.
     float filter_radius = 0.0f;
 };
 
+/// Every triangle has exactly one fate: triangles = culled_frustum + culled_backface + culled_degenerate + culled_small + culled_nonfinite + binned.
 struct FrameCounts {
-    uint64_t triangles = 0, culled_frustum = 0, culled_backface = 0, culled_degenerate = 0, culled_small = 0;
+    uint64_t triangles = 0;
+    uint64_t culled_frustum = 0;              ///< outside the view volume, or reaching no sample point of a tile that touches the crop
+    uint64_t culled_backface = 0;
+    uint64_t culled_degenerate = 0;           ///< no area once snapped
+    uint64_t culled_small = 0;                ///< between the sample points
     uint64_t culled_nonfinite = 0;            ///< a vertex was NaN or infinite after the transform
-    uint64_t clipped = 0;                     ///< triangles that a plane cut
-    uint64_t binned = 0;                      ///< triangles (after clipping) that reached a bin
-    uint64_t tiles = 0, tiles_empty = 0, hiz_rejected = 0;
+    uint64_t binned = 0;                      ///< reached a bin, whole or in pieces
+    uint64_t clipped = 0;                     ///< triangles that a plane cut and that were not culled as frustum; not a fate
+    uint64_t tiles = 0, tiles_empty = 0;      ///< of the tiles that touch the crop
+    uint64_t hiz_rejected = 0;                ///< 8x8 blocks of triangles that the tile's depth hid (summed by who draws the tiles)
     FrameCounts& operator+=(const FrameCounts&);
 };
 
-/// A plane f(x, y) = c + a*x + b*y over pixel coordinates (x right, y down, pixel (0,0) spans [0,1)).
+/// A plane f(x, y) = c + (a*x + b*y) over pixel coordinates (x right, y down, pixel (0,0) spans [0,1)).
 struct Plane {
     double a = 0, b = 0, c = 0;
     double at(double x, double y) const { return c + (a * x + b * y); }
 };
 
-/// A triangle ready for coverage and interpolation.
+/// A triangle ready for coverage: a whole triangle, or one piece of a triangle that a plane cut.
 struct SetupTriangle {
-    int32_t x[3], y[3];       ///< snapped screen positions, 1/256 pixel, winding made positive (see visibility)
-    /// Barycentrics over w of the *unclipped* triangle: bary_over_w[i](x,y) = b_i/w. Their sum is 1/w. Pieces of one clipped triangle share them.
-    Plane bary_over_w[3];
-    Plane depth;              ///< z_clip/w_clip: 1 near, falling with distance
+    /// Snapped screen positions, 1/256 pixel, ordered so that (x1-x0)(y2-y0) - (x2-x0)(y1-y0) > 0. Triangles with the same
+    /// three clip positions have the same order here, and so the same depth bits, in whatever order they were given.
+    int32_t x[3], y[3];
+    /// z_clip/w_clip at a sample point: depth_at_origin + (depth_dx*(x - x[0]/256) + depth_dy*(y - y[0]/256)), in double, rounded to
+    /// float, clamped to [depth_min, depth_max], the range of the vertices. 1 near, falling with distance.
+    double depth_at_origin, depth_dx, depth_dy;
+    float depth_min, depth_max;
+    /// Of a whole triangle: 1/w of its vertices, by corner.
+    std::array<double, 3> inverse_w;
+    /// Of a piece: b/w of the three corners as planes, in memory of the frame. Null for a whole triangle, whose planes follow from x and y.
+    const std::array<Plane, 3>* bary_over_w;
     uint32_t triangle_id;     ///< scene order
     uint32_t draw;            ///< index into the draws
-    uint32_t primitive;       ///< triangle within the draw; its vertices are indices[3*primitive + i], matching bary_over_w[i]
+    uint32_t primitive;       ///< triangle within the draw; its vertices are indices[3*primitive + corner]
+    uint8_t corner[3];        ///< of a whole triangle: which corner of the primitive is at x[i], y[i]
     CoverageClass coverage;
     bool front_facing;
 };
 
 inline constexpr uint32_t kNoTriangle = 0xFFFFFFFFu;
 
-/// The same draws give the same frame for any number of threads.
+/// The same draws give the same frame for any number of threads. Movable, not copyable: its triangles point into it.
 class Frame {
   public:
+    /// Throws std::length_error when more than 2^32 - 2 triangles or bin entries are left after culling.
     Frame(const FrameOptions& options, std::span<const Draw> draws, const ParallelFor& parallel_for = serial_for);
+    Frame(Frame&&) noexcept = default;
+    Frame& operator=(Frame&&) noexcept = default;
+    Frame(const Frame&) = delete;
+    Frame& operator=(const Frame&) = delete;
 
     const FrameOptions& options() const { return options_; }
     const FrameCounts& counts() const { return counts_; }
@@ -83,14 +106,19 @@ class Frame {
     int tiles_y() const { return tiles_y_; }
     const SetupTriangle& triangle(uint32_t setup_index) const { return triangles_[setup_index]; }
     uint32_t triangle_count() const { return uint32_t(triangles_.size()); }
-    /// Setup indices of the triangles that may touch a sample of the tile: opaque first, then masked and blended, each in scene order.
+    /// Setup indices of the triangles that may touch a sample of the tile: opaque first, then masked, then blended, each in scene order.
+    /// Empty for tiles that do not touch the crop.
     std::span<const uint32_t> bin(int tile_x, int tile_y) const;
 
   private:
+    void set_up(std::span<const Draw> draws, const ParallelFor& parallel_for);
+    void fill_bins(const ParallelFor& parallel_for);
+
     FrameOptions options_;
     FrameCounts counts_;
     int tiles_x_ = 0, tiles_y_ = 0;
     std::vector<SetupTriangle> triangles_;
+    std::vector<std::array<Plane, 3>> piece_planes_;
     std::vector<uint32_t> bin_start_, bin_entries_;
 };
 

@@ -14,8 +14,19 @@ struct Barycentrics {
     double inverse_w;
 };
 
-/// (x, y) in pixels. Weights are not clamped: at a covered sample they lie in [0, 1] but for snapping.
+/// (x, y) in pixels. Weights are not clamped, so that points beside the triangle extrapolate. At a covered sample of a whole triangle
+/// they lie in [0, 1 + 2^-52]; on a piece that clipping left they may leave [0, 1] by what they change over
+/// 1/256 pixel, for its planes are those of the unsnapped vertices.
 Barycentrics barycentrics(const SetupTriangle& triangle, double x, double y);
+
+/// What `barycentrics` evaluates, by the primitive's corners: b_i/w = scale[i]*plane[i].at(x, y), up to one common factor.
+/// Planes of whole triangles are exact at every sample point: multiples of 1/512 below 2^53 of them.
+struct InterpolationPlanes {
+    Plane plane[3];
+    double scale[3];
+    double inverse_area;    ///< the common factor
+};
+InterpolationPlanes interpolation_planes(const SetupTriangle& triangle);
 
 /// 32 lanes, structure of arrays; raster/interpolate-inl.h computes it in vectors, bit-equal to `barycentrics` rounded to float.
 struct alignas(64) BarycentricWave {

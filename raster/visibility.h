@@ -9,6 +9,7 @@
 namespace rawtexel::raster {
 
 /// The sample points of one pass over a tile: one offset for all pixels, or one per pixel.
+/// No offset may lie farther from the centre than FrameOptions::filter_radius (asserted).
 struct TileSamples {
     SampleOffset frame;                        ///< used where per_pixel is null
     const SampleOffset* per_pixel = nullptr;   ///< row by row over the tile, tile_size per row
@@ -19,8 +20,13 @@ struct TileVisibility {
     int tile_size = 0;
     std::vector<uint32_t> triangle;   ///< setup index, or kNoTriangle
     std::vector<float> depth;         ///< 1 near .. 0 far; 0 where there is no triangle
-    uint64_t hiz_rejected = 0;
+    uint64_t hiz_rejected = 0;        ///< 8x8 blocks of triangles skipped because opaque geometry hides all of them
 
+    /// Of every 8x8 block, row by row: depth of its farthest pixel as of the last look, and whether opaque geometry was written since.
+    std::vector<float> block_farthest;
+    std::vector<uint8_t> block_stale;
+
+    /// Nothing visible; keeps its memory.
     void reset(int size);
 };
 
@@ -33,10 +39,10 @@ struct CandidateWave {
     const SampleOffset* offset;       ///< 32 sample offsets, by lane
 };
 
-/// Draws the bin of tile (tile_x, tile_y) into `out`. The winner at a sample is the greatest depth value (nearest), ties going to the
-/// smallest triangle_id, whatever the order of the bin: a total order. Opaque geometry is drawn first; for every other triangle
-/// `coverage(const CandidateWave&) -> uint32_t` returns the lanes of the mask that cover, called only for lanes in front so far.
-/// Coverage is exact: int64 edge functions at 1/512-pixel sample points, top-left rule (D3D11.3 3.4.1).
+/// Draws the bin of tile (tile_x, tile_y) into `out`, which it resets first. The winner at a sample is the greatest depth value
+/// (nearest), ties going to the smallest triangle_id, whatever the order of the bin: a total order. Opaque geometry is drawn first; for
+/// every other triangle `coverage(const CandidateWave&) -> uint32_t` returns the lanes of the mask that cover, called only for lanes in
+/// front so far. Coverage is exact: integer edge functions at 1/512-pixel sample points, top-left rule (D3D11.3 3.4.2.1).
 ///
 /// Defined in raster/visibility-inl.h, compiled into each caller's instruction set:
 ///   template <class Coverage>

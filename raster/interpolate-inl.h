@@ -1,0 +1,134 @@
+// Barycentrics of 32 lanes at once; the scalar meaning is `barycentrics` in raster/interpolate.h.
+#if defined(RAWTEXEL_RASTER_INTERPOLATE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAWTEXEL_RASTER_INTERPOLATE_INL_H
+#undef RAWTEXEL_RASTER_INTERPOLATE_INL_H
+#else
+#define RAWTEXEL_RASTER_INTERPOLATE_INL_H
+#endif
+
+#include "raster/interpolate.h"
+
+#include <hwy/highway.h>
+
+#include <bit>
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace rawtexel::raster {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Reads every plane coefficient of one triangle as the same value in all lanes.
+class BroadcastPlanes {
+  public:
+    explicit BroadcastPlanes(const SetupTriangle& triangle) : planes_(interpolation_planes(triangle)) {}
+    template <class D> auto a(D d, int i, size_t) const { return hn::Set(d, planes_.plane[i].a); }
+    template <class D> auto b(D d, int i, size_t) const { return hn::Set(d, planes_.plane[i].b); }
+    template <class D> auto c(D d, int i, size_t) const { return hn::Set(d, planes_.plane[i].c); }
+    template <class D> auto scale(D d, int i, size_t) const { return hn::Set(d, planes_.scale[i]); }
+
+  private:
+    InterpolationPlanes planes_;
+};
+
+/// Every lane its own triangle: the coefficients are laid out by lane first.
+class PlanesByLane {
+  public:
+    PlanesByLane(const Frame& frame, const uint32_t* setup_index, uint32_t mask) {
+        InterpolationPlanes planes{};
+        uint32_t of_planes = kNoTriangle;
+        // Lanes without a triangle repeat what another lane has, so that no lane computes with garbage.
+        const uint32_t spare = setup_index[std::countr_zero(mask)];
+        for (int lane = 0; lane < 32; ++lane) {
+            const uint32_t index = mask >> lane & 1u ? setup_index[lane] : spare;
+            if (index != of_planes) planes = interpolation_planes(frame.triangle(of_planes = index));
+            for (int i = 0; i < 3; ++i) {
+                a_[i][lane] = planes.plane[i].a;
+                b_[i][lane] = planes.plane[i].b;
+                c_[i][lane] = planes.plane[i].c;
+                scale_[i][lane] = planes.scale[i];
+            }
+        }
+    }
+    template <class D> auto a(D d, int i, size_t lane) const { return hn::Load(d, a_[i] + lane); }
+    template <class D> auto b(D d, int i, size_t lane) const { return hn::Load(d, b_[i] + lane); }
+    template <class D> auto c(D d, int i, size_t lane) const { return hn::Load(d, c_[i] + lane); }
+    template <class D> auto scale(D d, int i, size_t lane) const { return hn::Load(d, scale_[i] + lane); }
+
+  private:
+    alignas(64) double a_[3][32], b_[3][32], c_[3][32], scale_[3][32];
+};
+
+/// Sample points of a block in pixels, exact. At most 8 lanes, so a vector never leaves its row.
+using SampleLanes = hn::CappedTag<double, 8>;
+
+/// The quotients of the lanes from `lane` on, in the order of operations of `barycentrics`.
+template <class Planes>
+HWY_INLINE void barycentric_lanes(const Planes& planes, const double* x, const double* y, size_t lane, BarycentricWave& out) {
+    const SampleLanes d;
+    const hn::Rebind<float, SampleLanes> df;
+    using V = hn::Vec<SampleLanes>;
+    const V px = hn::Load(d, x + lane), py = hn::Load(d, y + lane);
+    const auto over_w = [&](int i) HWY_ATTR {
+        const V along = hn::Add(hn::Mul(planes.a(d, i, lane), px), hn::Mul(planes.b(d, i, lane), py));
+        return hn::Mul(planes.scale(d, i, lane), hn::Add(planes.c(d, i, lane), along));
+    };
+    const auto slope_x = [&](int i) HWY_ATTR { return hn::Mul(planes.scale(d, i, lane), planes.a(d, i, lane)); };
+    const auto slope_y = [&](int i) HWY_ATTR { return hn::Mul(planes.scale(d, i, lane), planes.b(d, i, lane)); };
+    const V n1 = over_w(1), n2 = over_w(2);
+    const V dx1 = slope_x(1), dx2 = slope_x(2), dy1 = slope_y(1), dy2 = slope_y(2);
+    const V sum_dx = hn::Add(hn::Add(slope_x(0), dx1), dx2), sum_dy = hn::Add(hn::Add(slope_y(0), dy1), dy2);
+    const V w = hn::Div(hn::Set(d, 1.0), hn::Add(hn::Add(over_w(0), n1), n2));
+    const V b1 = hn::Mul(n1, w), b2 = hn::Mul(n2, w);
+    const auto store = [&](V value, float* to) HWY_ATTR { hn::Store(hn::DemoteTo(df, value), df, to + lane); };
+    const auto quotient = [&](V slope, V weight, V sum) HWY_ATTR { return hn::Mul(hn::Sub(slope, hn::Mul(weight, sum)), w); };
+    store(b1, out.b1);
+    store(b2, out.b2);
+    store(quotient(dx1, b1, sum_dx), out.db1_dx);
+    store(quotient(dx2, b2, sum_dx), out.db2_dx);
+    store(quotient(dy1, b1, sum_dy), out.db1_dy);
+    store(quotient(dy2, b2, sum_dy), out.db2_dy);
+}
+
+/// Zeroes the lanes outside the mask.
+HWY_INLINE void clear_other_lanes(uint32_t mask, BarycentricWave& out) {
+    for (uint32_t others = ~mask; others != 0; others &= others - 1) {
+        const int lane = std::countr_zero(others);
+        for (float* values : {out.b1, out.b2, out.db1_dx, out.db2_dx, out.db1_dy, out.db2_dy}) values[lane] = 0.0f;
+    }
+}
+
+/// Barycentrics of the lanes of `mask` in the 8x4 block whose upper left pixel is (x, y): lane i lies in setup triangle setup_index[i], at
+/// offset[i] from its pixel's corner. Lanes outside the mask are left zero.
+HWY_ATTR inline void barycentric_wave(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y, uint32_t mask,
+                                      BarycentricWave& out) {
+    if (mask == 0) {
+        out = {};
+        return;
+    }
+    alignas(64) double px[32];
+    alignas(64) double py[32];
+    bool one_triangle = true;
+    const uint32_t first = setup_index[std::countr_zero(mask)];
+    for (int lane = 0; lane < 32; ++lane) {
+        px[lane] = x + lane % kBlockWidth + double(offset[lane].x) / kSampleOne;
+        py[lane] = y + lane / kBlockWidth + double(offset[lane].y) / kSampleOne;
+        one_triangle &= (mask >> lane & 1u) == 0 || setup_index[lane] == first;
+    }
+    const size_t step = hn::Lanes(SampleLanes());
+    if (one_triangle) {
+        const BroadcastPlanes planes(frame.triangle(first));
+        for (size_t lane = 0; lane < 32; lane += step) barycentric_lanes(planes, px, py, lane, out);
+    } else {
+        const PlanesByLane planes(frame, setup_index, mask);
+        for (size_t lane = 0; lane < 32; lane += step) barycentric_lanes(planes, px, py, lane, out);
+    }
+    if (mask != 0xFFFFFFFFu) clear_other_lanes(mask, out);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rawtexel::raster
+HWY_AFTER_NAMESPACE();
+
+#endif  // RAWTEXEL_RASTER_INTERPOLATE_INL_H

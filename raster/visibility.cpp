@@ -1,0 +1,43 @@
+#include "raster/visibility.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/visibility.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per instruction set
+
+#include "raster/visibility-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rawtexel::raster {
+namespace HWY_NAMESPACE {
+
+void draw_all_covering(const Frame& frame, int tile_x, int tile_y, const TileSamples& samples, TileVisibility& out) {
+    tile_visibility(frame, tile_x, tile_y, samples, [](const CandidateWave& wave) { return wave.mask; }, out);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rawtexel::raster
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace rawtexel::raster {
+
+HWY_EXPORT(draw_all_covering);
+
+void tile_visibility_opaque(const Frame& frame, int tile_x, int tile_y, const TileSamples& samples, TileVisibility& out) {
+    HWY_DYNAMIC_DISPATCH(draw_all_covering)(frame, tile_x, tile_y, samples, out);
+}
+
+void TileVisibility::reset(int size) {
+    tile_size = size;
+    const size_t pixels = size_t(size) * size_t(size), blocks = pixels / 64;
+    triangle.assign(pixels, kNoTriangle);
+    depth.assign(pixels, 0.0f);
+    block_farthest.assign(blocks, 0.0f);
+    block_stale.assign(blocks, 0);
+    hiz_rejected = 0;
+}
+
+}  // namespace rawtexel::raster
+
+#endif  // HWY_ONCE
