@@ -5,6 +5,7 @@
 #include "texunit/bc_partitions.h"
 
 #include <array>
+#include <cstring>
 #include <utility>
 
 namespace rawtexel::texunit {

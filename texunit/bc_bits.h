@@ -1,22 +1,12 @@
 // The bits of a block, least significant first, and index streams with their anchors' missing bits put back.
 #pragma once
 
-#include <bit>
+#include "texunit/little_endian.h"
+
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 namespace rawtexel::texunit {
-
-static_assert(std::endian::native == std::endian::little, "blocks and containers are little-endian and are read as they are");
-
-/// A little-endian integer from memory of any alignment.
-template <class T>
-inline T load(const std::byte* from) {
-    T value;
-    std::memcpy(&value, from, sizeof(T));
-    return value;
-}
 
 /// 128 bits of a block, addressed from the least significant bit of its first byte.
 struct BlockBits {

@@ -1,10 +1,11 @@
 #include "texunit/bc_colour.h"
 
-#include "texunit/bc_bits.h"
 #include "texunit/bc_ramp.h"
+#include "texunit/little_endian.h"
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 namespace rawtexel::texunit {
 namespace {

@@ -1,8 +1,9 @@
 #include "texunit/bc_ramp.h"
 
-#include "texunit/bc_bits.h"
+#include "texunit/little_endian.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace rawtexel::texunit {
 namespace {

@@ -19,6 +19,8 @@ class ByteSource {
     /// Reads exactly `out.size()` bytes at `offset`; throws TextureError naming the file when they are not there. Thread-safe.
     virtual void read(uint64_t offset, std::span<std::byte> out) const = 0;
     virtual const std::string& name() const = 0;
+    /// Whether `read` only copies memory, so that keeping what was read gains nothing.
+    virtual bool in_memory() const { return false; }
 };
 
 /// A regular file read with pread; directories, devices and pipes are refused with a TextureError.
@@ -35,9 +37,12 @@ struct ContainerLimits {
     uint64_t max_texture_bytes = uint64_t{4} << 30;   ///< stored bytes after decompression
 };
 
-/// Parses and checks headers; payload is read block by block later. Throws TextureError: not that container, truncated, an extent
-/// of zero or above kMaxExtent, a format or supercompression that is not supported (named).
-/// `srgb`: nullopt keeps what the file says; otherwise the format is read as sRGB or linear, as glTF's use of the image asks.
+/// Parse and check headers against the bytes that are really there; payload is read in pages when a block is first asked for, and
+/// kept. Texels of formats that are not texunit's own are read as the nearest that is: 8-bit and shorter channels exactly, channels of
+/// 3, 5, 6, 7 or 9 to 15 bits as 16-bit codes rounded to nearest, 16-bit signed codes as floats, shared-exponent and 10- and 11-bit
+/// floats as halves, exactly; luminance is spread over red, green and blue; RXGB's red comes from BC3's alpha.
+/// Throw TextureError: not that container, truncated, an extent of zero or above kMaxExtent, more than `limits` allows, a format or a
+/// supercompression that is not supported (named).
 std::unique_ptr<TexelSource> open_dds(std::shared_ptr<const ByteSource> bytes, const ContainerLimits& limits = {});
 std::unique_ptr<TexelSource> open_ktx2(std::shared_ptr<const ByteSource> bytes, const ContainerLimits& limits = {});
 
