@@ -22,10 +22,39 @@ struct RandomAddress {
     uint32_t seed = 0;
 };
 
+// How: the words of the address are absorbed one after the other, seed first and dimension last, each by an exclusive or and Wellons'
+// two-round multiply-xorshift permutation `lowbias32` (exact bias 0.17 of 1, https://github.com/skeeto/hash-prospector). Each step is a
+// bijection of the 32-bit state, so addresses that differ in one word never collide. The dimension is spread by the golden ratio first,
+// since its values are few and small, and permuted twice: its numbers all start from the same state. The vector form (texunit/random-inl.h)
+// gives the same bits.
+
+constexpr uint32_t kRandomStart = 0x9E3779B9u;   ///< 2^32 / golden ratio: keeps the all-zero address off the permutation's fixed point 0
+
+constexpr uint32_t mix_bits(uint32_t bits) {
+    bits = (bits ^ bits >> 16) * 0x7FEB352Du;
+    bits = (bits ^ bits >> 15) * 0x846CA68Bu;
+    return bits ^ bits >> 16;
+}
+
+/// The state that all dimensions of one sample and surface of a pixel share.
+constexpr uint32_t random_state(const RandomAddress& address) {
+    uint32_t state = mix_bits(kRandomStart ^ address.seed);
+    state = mix_bits(state ^ address.sample);
+    state = mix_bits(state ^ address.x);
+    state = mix_bits(state ^ address.y);
+    return mix_bits(state ^ address.surface);
+}
+
+/// 32 well-mixed bits for one role.
+constexpr uint32_t random_bits(uint32_t state, Dimension dimension) {
+    return mix_bits(mix_bits(state ^ (uint32_t(dimension) + 1) * kRandomStart));
+}
+
 /// 32 well-mixed bits.
-uint32_t random_bits(const RandomAddress& address);
+constexpr uint32_t random_bits(const RandomAddress& address) { return random_bits(random_state(address), address.dimension); }
 
 /// In [0, 1): the top 24 bits times 2^-24. Never 1.
-float random_float(const RandomAddress& address);
+constexpr float unit_float(uint32_t bits) { return float(bits >> 8) * 0x1p-24f; }
+constexpr float random_float(const RandomAddress& address) { return unit_float(random_bits(address)); }
 
 }  // namespace rawtexel::texunit

@@ -1,7 +1,9 @@
 // A texture: a mip pyramid in 4x4 blocks, each decoded or made on first touch into memory the system commits only when touched.
 #pragma once
 
+#include "texunit/block_states.h"
 #include "texunit/format.h"
+#include "texunit/level_table.h"
 #include "texunit/texel_source.h"
 #include "texunit/wave.h"
 
@@ -18,17 +20,6 @@ enum class MipStorage { Source, Float };
 
 struct TextureOptions {
     MipStorage mip_storage = MipStorage::Source;
-};
-
-/// What select and gather need to know of every level, as arrays for vector look-ups.
-/// The texel (x, y) of slice s lies at texel index  offset[l] + s*slice_stride[l] + column(x) + row(y, l),  where
-/// column(x) = (x >> page_shift_x) * page_texels + spread of the low bits and row likewise: see texunit/address-inl.h.
-struct LevelTable {
-    alignas(64) std::array<int32_t, 16> width{}, height{}, depth{};   ///< texels
-    alignas(64) std::array<int32_t, 16> offset{};                     ///< texels from the base of the storage
-    alignas(64) std::array<int32_t, 16> pages_x{};                    ///< 4 KiB pages along x
-    alignas(64) std::array<int32_t, 16> slice_stride{};               ///< texels
-    int32_t levels = 1;
 };
 
 /// What was done, as opposed to asked for. Read when no thread samples.
@@ -56,12 +47,12 @@ class Texture {
     TextureWork work() const;
 
     const TexelLayout& texel_layout() const;
-    const LevelTable& levels() const;
-    /// Base of the decoded texels. Only blocks that `ensure` returned for may be read.
-    const std::byte* texels() const;
+    const LevelTable& levels() const { return levels_; }
+    /// Base of the decoded texels, addressed as texunit/level_table.h says. Only blocks that are ready may be read.
+    const std::byte* texels() const { return texels_; }
 
     /// True once every block of every level is there; `ensure` need not be called then.
-    bool complete() const;
+    bool complete() const { return ready_levels() == all_levels(); }
 
     /// Makes sure that the block holding texel (x, y) of `slice` in `level` is decoded; 0 <= x < width of that level, and so on.
     /// One thread decodes, the others wait without running other tasks. Rethrows the TextureError of a damaged source, in every caller.
@@ -73,9 +64,23 @@ class Texture {
     /// The texel as linear RGBA, decoding it if need be. For tools and tests: one texel at a time.
     std::array<float, 4> texel(int level, int slice, int x, int y);
 
+    // What the vector form of `ensure` (texunit/fetch-inl.h) is made of.
+
+    /// Bit l: every block of level l is ready.
+    uint32_t ready_levels() const { return ready_levels_.load(std::memory_order_acquire); }
+    uint32_t all_levels() const { return (1u << levels_.levels) - 1; }
+    /// Bit b: block 64*group + b is ready. The number of a texel's block is its index / 16.
+    uint64_t ready_blocks(int32_t group) const { return states_->ready(group); }
+    /// Returns once the blocks of `missing`, bits of that group, are ready; makes those that nobody else is making.
+    void make_blocks(int32_t group, uint64_t missing);
+
   private:
-    struct State;
-    std::unique_ptr<State> state_;
+    struct Maker;   // whatever is needed to make blocks, and not to read them
+    std::unique_ptr<Maker> maker_;
+    LevelTable levels_;
+    std::unique_ptr<BlockStates> states_;
+    const std::byte* texels_ = nullptr;
+    std::atomic<uint32_t> ready_levels_{0};
 };
 
 }  // namespace rawtexel::texunit
