@@ -1,0 +1,76 @@
+#include "shading/display.h"
+
+#include "shading/tone_map.h"
+#include "shading/transfer.h"
+
+#include <cassert>
+#include <cmath>
+
+namespace rawtexel::shading {
+namespace {
+
+struct ToneMapName {
+    ToneMap tone_map;
+    std::string_view name;
+};
+constexpr ToneMapName kToneMaps[] = {{ToneMap::Aces, "aces"}, {ToneMap::Reinhard, "reinhard"}, {ToneMap::None, "none"}};
+
+struct TransferName {
+    Transfer transfer;
+    std::string_view name;
+};
+constexpr TransferName kTransfers[] = {{Transfer::Srgb, "srgb"}, {Transfer::Sqrt, "sqrt"}, {Transfer::Linear, "linear"}};
+
+const CodeTable& code_table(Transfer transfer) {
+    static const CodeTable tables[] = {CodeTable(Transfer::Srgb), CodeTable(Transfer::Sqrt), CodeTable(Transfer::Linear)};
+    return tables[size_t(transfer)];
+}
+
+}  // namespace
+
+std::string_view to_string(ToneMap tone_map) {
+    for (const ToneMapName& entry : kToneMaps)
+        if (entry.tone_map == tone_map) return entry.name;
+    return {};
+}
+
+std::string_view to_string(Transfer transfer) {
+    for (const TransferName& entry : kTransfers)
+        if (entry.transfer == transfer) return entry.name;
+    return {};
+}
+
+std::optional<ToneMap> parse_tone_map(std::string_view text) {
+    for (const ToneMapName& entry : kToneMaps)
+        if (entry.name == text) return entry.tone_map;
+    return std::nullopt;
+}
+
+std::optional<Transfer> parse_transfer(std::string_view text) {
+    for (const TransferName& entry : kTransfers)
+        if (entry.name == text) return entry.transfer;
+    return std::nullopt;
+}
+
+Image tone_mapped(const Image& radiance, const DisplayOptions& options) {
+    assert(radiance.channels >= 3);
+    const float factor = std::exp2(options.exposure);
+    Image display = radiance;
+    for (size_t i = 0; i + 2 < display.values.size(); i += size_t(display.channels)) {
+        float* pixel = display.values.data() + i;
+        const glm::vec3 mapped = tone_mapped(glm::vec3(pixel[0], pixel[1], pixel[2]), factor, options.tone_map);
+        pixel[0] = mapped.r;
+        pixel[1] = mapped.g;
+        pixel[2] = mapped.b;
+    }
+    return display;
+}
+
+std::vector<uint8_t> encode_8bit(const Image& display_linear, Transfer transfer) {
+    const CodeTable& table = code_table(transfer);
+    std::vector<uint8_t> codes(display_linear.values.size());
+    for (size_t i = 0; i < codes.size(); ++i) codes[i] = table.code(display_linear.values[i]);
+    return codes;
+}
+
+}  // namespace rawtexel::shading

@@ -1,0 +1,35 @@
+// What an Environment holds for looking light up: the lat-long image, and octahedral maps prefiltered with GGX lobes.
+#pragma once
+
+#include "shading/environment.h"
+#include "shading/packed_radiance.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace rawtexel::shading {
+
+inline constexpr int kSpecularLevels = 24;
+
+/// The roughness of the prefiltered levels. Level 0 is the image itself, level 1 has the narrowest lobe that the image's texels
+/// resolve, the last one has roughness 1: the cosine lobe, which is a white diffuse surface's too. In between the lobes' widths grow about
+/// geometrically: level = 1 + (levels - 2) * (r - first) (1 + kBend) / ((r + kBend) (1 - first)).
+struct RoughnessScale {
+    static constexpr float kBend = 0.2f;
+    float first = 0.1f;                       ///< roughness of level 1
+
+    float roughness_of(int level) const;      ///< 0, first, ..., 1
+};
+
+struct Environment::Tables {
+    int width = 0, height = 0;
+    std::vector<float> latlong;               ///< RGB interleaved, rows from the top, finite and >= 0
+
+    RoughnessScale scale;
+    /// Level l is a square of extent[l] + 2 texels a side, one texel of border all around, beginning at texel start[l].
+    alignas(64) std::array<int32_t, 32> extent{}, start{};
+    std::vector<PackedRadiance> texels;
+};
+
+}  // namespace rawtexel::shading

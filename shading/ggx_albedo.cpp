@@ -1,0 +1,101 @@
+#include "shading/ggx_albedo.h"
+
+#include "shading/brdf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace rawtexel::shading {
+namespace {
+
+/// Gauss-Legendre nodes and weights on [0, 1] (Newton's method on the Legendre polynomial).
+template <int N>
+struct GaussLegendre {
+    double node[N], weight[N];
+    GaussLegendre() {
+        for (int i = 0; i < N; ++i) {
+            double x = std::cos(std::numbers::pi * (i + 0.75) / (N + 0.5)), derivative = 1.0;
+            for (int step = 0; step < 100; ++step) {
+                double p0 = 1.0, p1 = x;
+                for (int k = 2; k <= N; ++k) {
+                    const double p2 = ((2.0 * k - 1.0) * x * p1 - (k - 1.0) * p0) / k;
+                    p0 = p1;
+                    p1 = p2;
+                }
+                derivative = N * (x * p1 - p0) / (x * x - 1.0);
+                const double change = p1 / derivative;
+                x -= change;
+                if (std::fabs(change) < 1e-15) break;
+            }
+            node[i] = 0.5 * (1.0 - x);
+            weight[i] = 1.0 / ((1.0 - x * x) * derivative * derivative);
+        }
+    }
+};
+
+/// (1 - x)^5.
+double schlick(double x) {
+    const double k = 1.0 - x;
+    return k * k * k * k * k;
+}
+
+}  // namespace
+
+std::array<double, 2> integrate_ggx_albedo(double n_dot_v, double alpha) {
+    // Visible normals of the GGX distribution, Heitz 2018 "Sampling the GGX Distribution of Visible Normals", taken as a quadrature:
+    // radius by Gauss-Legendre, azimuth equidistant (the integrand is symmetric about the plane of incidence).
+    static constexpr int kRadii = 24, kAzimuths = 32;
+    static const GaussLegendre<kRadii> radii;
+    const double nv = std::min(n_dot_v, 1.0), alpha2 = alpha * alpha;
+    const double smith_view = std::sqrt(nv * nv * (1.0 - alpha2) + alpha2);
+
+    // The view direction in the stretched frame, where the surface is a hemisphere.
+    const double view_x = std::sqrt(1.0 - nv * nv);
+    const double length = std::hypot(alpha * view_x, nv), stretched_x = alpha * view_x / length, stretched_z = nv / length;
+    double scale = 0.0, bias = 0.0;
+    for (int i = 0; i < kRadii; ++i) {
+        const double radius = radii.node[i];
+        for (int j = 0; j < kAzimuths; ++j) {
+            const double azimuth = std::numbers::pi * (j + 0.5) / kAzimuths;
+            // A point of the unit disk seen along the view, moved so that the hidden half of the hemisphere is left out.
+            const double across = radius * std::cos(azimuth), raised = radius * std::sin(azimuth);
+            for (const double side : {-1.0, 1.0}) {
+                const double half_share = 0.5 * (1.0 + stretched_z);
+                const double t1 = across, t2 = (1.0 - half_share) * std::sqrt(1.0 - t1 * t1) + half_share * side * raised;
+                const double t3 = std::sqrt(std::max(0.0, 1.0 - t1 * t1 - t2 * t2));
+                // t1 runs across the plane of incidence, t2 within it.
+                const double nx = -t2 * stretched_z + t3 * stretched_x, ny = t1, nz = t2 * stretched_x + t3 * stretched_z;
+                const double hx = alpha * nx, hy = alpha * ny, hz = std::max(nz, 0.0), norm = std::sqrt(hx * hx + hy * hy + hz * hz);
+                const double v_dot_h = (view_x * hx + nv * hz) / norm;
+                const double n_dot_l = 2.0 * v_dot_h * hz / norm - nv;
+                if (n_dot_l <= 0.0 || v_dot_h <= 0.0) continue;
+                // Masking of light given masking of view: f n.l / pdf = G2 / G1.
+                const double smith_light = std::sqrt(n_dot_l * n_dot_l * (1.0 - alpha2) + alpha2);
+                const double share = n_dot_l * (nv + smith_view) / (n_dot_l * smith_view + nv * smith_light);
+                const double weight = radii.weight[i] * 2.0 * radius / (2.0 * kAzimuths) * share, fresnel = schlick(v_dot_h);
+                scale += weight * (1.0 - fresnel);
+                bias += weight * fresnel;
+            }
+        }
+    }
+    return {scale, bias};
+}
+
+const GgxAlbedoTable& ggx_albedo_table() {
+    static const GgxAlbedoTable table = [] {
+        GgxAlbedoTable made;
+        for (int r = 0; r < GgxAlbedoTable::kRoughnesses; ++r)
+            for (int v = 0; v < GgxAlbedoTable::kViews; ++v) {
+                const double view = v / double(GgxAlbedoTable::kViews - 1), roughness = r / double(GgxAlbedoTable::kRoughnesses - 1);
+                const auto albedo = integrate_ggx_albedo(std::max(view * view, double(kMinNdotV)), std::max(roughness * roughness, double(kMinAlpha)));
+                const size_t at = size_t(r * GgxAlbedoTable::kViews + v) * 2;
+                made.values[at] = float(albedo[0]);
+                made.values[at + 1] = float(albedo[1]);
+            }
+        return made;
+    }();
+    return table;
+}
+
+}  // namespace rawtexel::shading

@@ -1,0 +1,90 @@
+// Shading a wave: emission, ambient, punctual lights with the sun's shadow, environment. Work whose weight is zero is skipped.
+#if defined(RAWTEXEL_SHADING_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAWTEXEL_SHADING_LIGHT_INL_H_
+#undef RAWTEXEL_SHADING_LIGHT_INL_H_
+#else
+#define RAWTEXEL_SHADING_LIGHT_INL_H_
+#endif
+
+#include "shading/brdf-inl.h"
+#include "shading/environment-inl.h"
+#include "shading/ggx_albedo-inl.h"
+#include "shading/lighting.h"
+#include "shading/punctual-inl.h"
+#include "shading/shadow-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rawtexel::shading {
+namespace HWY_NAMESPACE {
+
+/// Radiance that one punctual light adds; `shadow` null: nothing is in its way.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vector3<V> punctual_radiance(D d, const Light& light, const ShadowMap* shadow, const ShadingPoint<V>& p) {
+    const V zero = hn::Zero(d);
+    const Incidence<V> arriving = incidence(d, light, p.position);
+    const V n_dot_l = dot(p.normal, arriving.to_light);
+    const auto lit = hn::And(hn::Gt(n_dot_l, zero), hn::Gt(arriving.attenuation, zero));
+    if (hn::AllFalse(d, lit)) return {zero, zero, zero};
+
+    V share = arriving.attenuation;
+    if (shadow != nullptr) share = hn::Mul(share, shadow_visibility_lanes(d, *shadow, p.position, p.geometric_normal));
+    share = hn::IfThenElseZero(lit, share);
+    if (hn::AllFalse(d, hn::Gt(share, zero))) return {zero, zero, zero};
+    const Vector3<V> reflected = brdf_cosine(d, p, arriving.to_light, hn::Max(n_dot_l, zero));
+    const Vector3<V> radiance = mul(scale(reflected, share), set3(d, light.color * light.intensity));
+    return {hn::IfThenElseZero(lit, radiance.x), hn::IfThenElseZero(lit, radiance.y), hn::IfThenElseZero(lit, radiance.z)};
+}
+
+/// Radiance that the environment adds: split sum (Karis 2013) for the reflection, irradiance for the diffuse term.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vector3<V> environment_radiance(D d, const Environment::Tables& tables, const ShadingPoint<V>& p) {
+    const V one = hn::Set(d, 1.0f);
+    const V n_dot_v = hn::Min(p.n_dot_v, one);
+    const Vector3<V> mirrored = sub(scale(p.normal, hn::Mul(hn::Set(d, 2.0f), dot(p.normal, p.view))), p.view);
+    const GgxAlbedo<V> albedo = ggx_albedo_lanes(d, ggx_albedo_table(), n_dot_v, p.roughness);
+    const Vector3<V> arriving = specular_radiance(d, tables, mirrored, p.roughness);
+    const auto specular = [&](V f0, V light) HWY_ATTR { return hn::Mul(hn::Add(hn::Mul(f0, albedo.scale), albedo.bias), light); };
+    Vector3<V> radiance{specular(p.f0.x, arriving.x), specular(p.f0.y, arriving.y), specular(p.f0.z, arriving.z)};
+
+    // Metals and black have no diffuse term. Of the others' light, F0 + (1 - F0) * mean Schlick weight is reflected before it enters.
+    const V most = hn::Max(hn::Max(p.diffuse.x, p.diffuse.y), p.diffuse.z);
+    if (!hn::AllFalse(d, hn::Gt(most, hn::Zero(d)))) {
+        const Vector3<V> light = diffuse_radiance(d, tables, p.normal);
+        const V entering = hn::Mul(hn::Sub(one, diffuse_fresnel(d, n_dot_v)), hn::Set(d, 3.14159265f));
+        const auto diffuse = [&](V f0, V color, V arriving_light) HWY_ATTR {
+            return hn::Mul(hn::Mul(hn::Mul(hn::Sub(one, f0), entering), color), arriving_light);
+        };
+        radiance = add(radiance, {diffuse(p.f0.x, p.diffuse.x, light.x), diffuse(p.f0.y, p.diffuse.y, light.y), diffuse(p.f0.z, p.diffuse.z, light.z)});
+    }
+    return scale(radiance, p.occlusion);
+}
+
+/// Radiance towards the viewer at the lanes of `mask`: shade_surface of lighting.h. Lanes outside the mask are finite where their surface is.
+inline void shade_lanes(const Lighting& lighting, const SurfaceWave& surface, WaveMask mask, WaveVector& radiance) {
+    const hn::ScalableTag<float> d;
+    for (size_t i = 0; i < size_t(texunit::kWaveLanes); i += hn::Lanes(d)) {
+        if (!any_active(mask, i, hn::Lanes(d))) {
+            store3(d, set3(d, glm::vec3(0.0f)), radiance, i);
+            continue;
+        }
+        const auto point = load_point(d, surface, i);
+        const auto ambient = hn::Mul(hn::Set(d, lighting.ambient), point.occlusion);
+        auto sum = add(scale(load3(d, surface.base_color, i), ambient), load3(d, surface.emission, i));
+
+        // The shadow map is the first directional light's.
+        const ShadowMap* shadow = lighting.shadow.get();
+        for (const Light& light : lighting.lights) {
+            const bool directional = light.type == Light::Type::Directional;
+            sum = add(sum, punctual_radiance(d, light, directional ? shadow : nullptr, point));
+            if (directional) shadow = nullptr;
+        }
+        if (lighting.environment) sum = add(sum, environment_radiance(d, lighting.environment->tables(), point));
+        store3(d, sum, radiance, i);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rawtexel::shading
+HWY_AFTER_NAMESPACE();
+
+#endif  // RAWTEXEL_SHADING_LIGHT_INL_H_

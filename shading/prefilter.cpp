@@ -1,0 +1,253 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/prefilter.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "shading/environment-inl.h"
+#include "shading/latlong_tree.h"
+#include "shading/octahedral.h"
+#include "shading/brdf.h"
+#include "shading/prefilter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#ifndef RAWTEXEL_SHADING_PREFILTER_ONCE_
+#define RAWTEXEL_SHADING_PREFILTER_ONCE_
+namespace rawtexel::shading {
+
+/// Outputs are made in squares of 4x4 texels, which share one walk of the tree.
+inline constexpr int kBlock = 4, kBlockTexels = kBlock * kBlock;
+
+struct OutputBlock {
+    alignas(64) float x[kBlockTexels], y[kBlockTexels], z[kBlockTexels];          ///< directions
+    alignas(64) float red[kBlockTexels], green[kBlockTexels], blue[kBlockTexels]; ///< means
+};
+
+}  // namespace rawtexel::shading
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace rawtexel::shading {
+namespace HWY_NAMESPACE {
+
+/// Sums kernel(n.l) * flux over the nodes for all 16 outputs: lanes are outputs, so the order of a sum is that of the nodes on every target.
+inline void gather_block(const LightNode* nodes, size_t count, const LobeKernel& kernel, OutputBlock& block) {
+    const hn::CappedTag<float, kBlockTexels> d;
+    const auto zero = hn::Zero(d), offset = hn::Set(d, float(kernel.offset)), slope = hn::Set(d, float(kernel.slope));
+    const auto normalisation = hn::Set(d, float(kernel.normalisation));
+    for (size_t i = 0; i < size_t(kBlockTexels); i += hn::Lanes(d)) {
+        const auto nx = hn::Load(d, block.x + i), ny = hn::Load(d, block.y + i), nz = hn::Load(d, block.z + i);
+        auto red = zero, green = zero, blue = zero;
+        for (size_t k = 0; k < count; ++k) {
+            const LightNode& node = nodes[k];
+            const auto x = hn::Mul(nx, hn::Set(d, node.direction.x)), y = hn::Mul(ny, hn::Set(d, node.direction.y));
+            const auto cosine = hn::Max(hn::Add(hn::Add(x, y), hn::Mul(nz, hn::Set(d, node.direction.z))), zero);
+            const auto spread = hn::Sub(offset, hn::Mul(slope, cosine));
+            const auto weight = hn::Div(cosine, hn::Mul(spread, spread));
+            red = hn::Add(red, hn::Mul(weight, hn::Set(d, node.flux.r)));
+            green = hn::Add(green, hn::Mul(weight, hn::Set(d, node.flux.g)));
+            blue = hn::Add(blue, hn::Mul(weight, hn::Set(d, node.flux.b)));
+        }
+        hn::Store(hn::Mul(red, normalisation), d, block.red + i);
+        hn::Store(hn::Mul(green, normalisation), d, block.green + i);
+        hn::Store(hn::Mul(blue, normalisation), d, block.blue + i);
+    }
+}
+
+/// Adds the image's own radiance at each output's direction.
+inline void add_mirrored(const Environment::Tables& tables, OutputBlock& block) {
+    const hn::CappedTag<float, kBlockTexels> d;
+    for (size_t i = 0; i < size_t(kBlockTexels); i += hn::Lanes(d)) {
+        const auto light = latlong_radiance(d, tables, {hn::Load(d, block.x + i), hn::Load(d, block.y + i), hn::Load(d, block.z + i)});
+        hn::Store(hn::Add(hn::Load(d, block.red + i), light.x), d, block.red + i);
+        hn::Store(hn::Add(hn::Load(d, block.green + i), light.y), d, block.green + i);
+        hn::Store(hn::Add(hn::Load(d, block.blue + i), light.z), d, block.blue + i);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rawtexel::shading
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rawtexel::shading {
+HWY_EXPORT(gather_block);
+HWY_EXPORT(add_mirrored);
+namespace {
+
+/// Largest patch that stands for its parts, as a share of the lobe's scale at its distance.
+constexpr float kPatchShare = 0.25f;
+/// Wide lobes are cut off at the horizon: patches that straddle it must be small.
+constexpr float kWidestPatch = 0.08f;
+
+/// Side of the map that holds the image itself.
+int mirror_extent(int width) { return std::clamp((width + kBlock - 1) / kBlock * kBlock, 64, 2048); }
+
+/// Side of a lobe's map, texels: several across the lobe, as fine as the image deserves, never so coarse that a cosine lobe shows facets.
+int lobe_extent(double alpha, int width) {
+    const double finest = std::clamp(width / 2, 64, 1024);
+    const double wanted = std::clamp(10.0 / alpha, 64.0, finest);
+    return int(std::ceil(wanted / kBlock)) * kBlock;
+}
+
+/// Walks the tree for one block of outputs.
+class PatchSelection {
+  public:
+    PatchSelection(const std::vector<LightLevel>& tree, float alpha)
+        : tree_(tree), alpha2_(4.0f * alpha * alpha), widest_(alpha > 0.2f ? kWidestPatch : 1e9f) {}
+
+    /// Nodes that together hold all light within 90 degrees of the outputs, which lie within `radius` (chord) of `center`.
+    const std::vector<LightNode>& select(const glm::vec3& center, float radius) {
+        nodes_.clear();
+        center_ = center;
+        radius_ = radius;
+        visit(tree_.size() - 1, 0, 0);
+        return nodes_;
+    }
+
+  private:
+    void visit(size_t level, int x, int y) {
+        const LightNode& node = tree_[level].at(x, y);
+        const glm::vec3 offset = node.direction - center_;
+        const float distance = std::sqrt(glm::dot(offset, offset)) - radius_;
+        // The mean direction may lie anywhere in the patch; at a chord of sqrt(2) it is beyond the horizon of every output.
+        if (distance - 2.0f * node.radius > std::numbers::sqrt2_v<float>) return;
+        const float gap = std::max(distance - node.radius, 0.0f);
+        const float limit2 = kPatchShare * kPatchShare * (alpha2_ + gap * gap);
+        const bool small = node.radius * node.radius <= limit2 && node.radius <= widest_;
+        if (small || level == 0) {
+            nodes_.push_back(node);
+            return;
+        }
+        const LightLevel& finer = tree_[level - 1];
+        for (int cy = 2 * y; cy < std::min(2 * y + 2, finer.height); ++cy)
+            for (int cx = 2 * x; cx < std::min(2 * x + 2, finer.width); ++cx) visit(level - 1, cx, cy);
+    }
+
+    const std::vector<LightLevel>& tree_;
+    float alpha2_, widest_;
+    glm::vec3 center_{0.0f};
+    float radius_ = 0.0f;
+    std::vector<LightNode> nodes_;
+};
+
+struct LevelMap {
+    int extent;
+    PackedRadiance* texels;   ///< extent + 2 a side
+
+    PackedRadiance& at(int x, int y) const { return texels[size_t(y + 1) * size_t(extent + 2) + size_t(x + 1)]; }
+    glm::vec3 direction(float x, float y) const { return direction_from_octahedral(glm::vec2(x, y) / float(extent)); }
+};
+
+/// Directions of a block's texels, `right` and `down` texels from their upper left corners.
+void aim_block(const LevelMap& map, int left, int top, float right, float down, OutputBlock& block) {
+    for (int i = 0; i < kBlockTexels; ++i) {
+        const glm::vec3 n = map.direction(float(left + i % kBlock) + right, float(top + i / kBlock) + down);
+        block.x[i] = n.x;
+        block.y[i] = n.y;
+        block.z[i] = n.z;
+    }
+}
+
+void store_block(const OutputBlock& block, float factor, const LevelMap& map, int left, int top) {
+    for (int i = 0; i < kBlockTexels; ++i)
+        map.at(left + i % kBlock, top + i / kBlock) = pack_radiance(glm::vec3(block.red[i], block.green[i], block.blue[i]) * factor);
+}
+
+void filter_block(const LevelMap& map, int left, int top, const LobeKernel& kernel, PatchSelection& selection) {
+    OutputBlock block;
+    aim_block(map, left, top, 0.5f, 0.5f, block);
+    const glm::vec3 center = map.direction(float(left + kBlock / 2), float(top + kBlock / 2));
+    float radius2 = 0.0f;
+    for (int i = 0; i < kBlockTexels; ++i) {
+        const glm::vec3 offset = glm::vec3(block.x[i], block.y[i], block.z[i]) - center;
+        radius2 = std::max(radius2, glm::dot(offset, offset));
+    }
+    const std::vector<LightNode>& nodes = selection.select(center, std::sqrt(radius2));
+    HWY_DYNAMIC_DISPATCH(gather_block)(nodes.data(), nodes.size(), kernel, block);
+    store_block(block, 1.0f, map, left, top);
+}
+
+/// The image itself, averaged over each texel where the image is finer than the map.
+void mirror_block(const LevelMap& map, int left, int top, const Environment::Tables& tables) {
+    const int points = std::clamp((tables.width + map.extent - 1) / map.extent, 1, 8);
+    OutputBlock block{};
+    for (int j = 0; j < points; ++j)
+        for (int i = 0; i < points; ++i) {
+            aim_block(map, left, top, (float(i) + 0.5f) / float(points), (float(j) + 0.5f) / float(points), block);
+            HWY_DYNAMIC_DISPATCH(add_mirrored)(tables, block);
+        }
+    store_block(block, 1.0f / float(points * points), map, left, top);
+}
+
+void fill_border(const LevelMap& map) {
+    const auto copy = [&](int x, int y) {
+        const glm::ivec2 inside = octahedral_wrapped(x, y, map.extent);
+        map.at(x, y) = map.at(inside.x, inside.y);
+    };
+    for (int i = -1; i <= map.extent; ++i) {
+        copy(i, -1);
+        copy(i, map.extent);
+        copy(-1, i);
+        copy(map.extent, i);
+    }
+}
+
+}  // namespace
+
+LobeKernel::LobeKernel(double alpha) : slope((1.0 - alpha * alpha) / 2.0) {
+    // 1 - (1 - a^2)(1 + c)/2 = offset - slope*c; the integral of 2 pi c / (offset - slope*c)^2 over c in [0, 1].
+    offset = 1.0 - slope;
+    const double integral = slope < 1e-4 ? 0.5 + slope * 5.0 / 3.0
+                                         : (offset / (offset - slope) - 1.0 + std::log((offset - slope) / offset)) / (slope * slope);
+    normalisation = 1.0 / (2.0 * std::numbers::pi * integral);
+}
+
+double LobeKernel::density(double cosine) const {
+    const double spread = offset - slope * cosine;
+    return cosine > 0.0 ? normalisation * cosine / (spread * spread) : 0.0;
+}
+
+void prefilter(const Image& latlong, Executor& executor, Environment::Tables& tables) {
+    const std::vector<LightLevel> tree = make_light_tree(latlong, executor);
+
+    // The first lobe is as wide as half a finest node.
+    const double node = std::numbers::pi / tree[0].height;
+    tables.scale.first = float(std::sqrt(std::clamp(0.5 * node, double(kMinAlpha), 0.02)));
+
+    // Lay the maps out, finest first: the costly rows start early.
+    struct Row {
+        int level, top;
+    };
+    std::vector<Row> rows;
+    size_t total = 0;
+    for (int level = 0; level < kSpecularLevels; ++level) {
+        const double roughness = tables.scale.roughness_of(level);
+        const int extent = level == 0 ? mirror_extent(latlong.width) : lobe_extent(roughness * roughness, latlong.width);
+        tables.extent[size_t(level)] = extent;
+        tables.start[size_t(level)] = int32_t(total);
+        total += size_t(extent + 2) * size_t(extent + 2);
+        for (int top = 0; top < extent; top += kBlock) rows.push_back({level, top});
+    }
+    tables.texels.resize(total);
+    const auto map_of = [&](int level) { return LevelMap{tables.extent[size_t(level)], tables.texels.data() + tables.start[size_t(level)]}; };
+
+    executor.parallel_for(int64_t(rows.size()), [&](int64_t index, int) {
+        const auto [level, top] = rows[size_t(index)];
+        const LevelMap map = map_of(level);
+        if (level == 0) {
+            for (int left = 0; left < map.extent; left += kBlock) mirror_block(map, left, top, tables);
+            return;
+        }
+        const double roughness = tables.scale.roughness_of(level), alpha = roughness * roughness;
+        const LobeKernel kernel(alpha);
+        PatchSelection selection(tree, float(alpha));
+        for (int left = 0; left < map.extent; left += kBlock) filter_block(map, left, top, kernel, selection);
+    });
+    for (int level = 0; level < kSpecularLevels; ++level) fill_border(map_of(level));
+}
+
+}  // namespace rawtexel::shading
+#endif  // HWY_ONCE
