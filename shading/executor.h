@@ -16,6 +16,9 @@ class Executor {
     virtual void parallel_for(int64_t count, const std::function<void(int64_t index, int worker)>& body) = 0;
 };
 
+/// The same without workers' numbers, as raster takes it; refers to `executor`.
+std::function<void(int64_t count, const std::function<void(int64_t index)>& body)> parallel_for_of(Executor& executor);
+
 enum class ExecutorKind { Tbb, Threads };
 
 /// `threads` 0: all cores. The environment variable RAWTEXEL_EXECUTOR=threads is honoured by default_executor_kind().

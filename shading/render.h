@@ -2,6 +2,7 @@
 #pragma once
 
 #include "raster/frame.h"
+#include "shading/aov.h"
 #include "shading/executor.h"
 #include "shading/image.h"
 #include "shading/lighting.h"
@@ -16,11 +17,6 @@
 #include <vector>
 
 namespace rawtexel::shading {
-
-/// Extra layers. Means over the samples, but Material and Lod: those of sample 0.
-enum class Aov { Depth, Normal, Albedo, Uv, Lod, Material, Texels, Spp };
-std::string_view to_string(Aov aov);              // depth normal albedo uv lod material texels spp
-std::optional<Aov> parse_aov(std::string_view text);
 
 struct Crop {
     int x = 0, y = 0, width = 0, height = 0;      ///< pixels; zero extents: the whole frame

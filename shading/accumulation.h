@@ -1,0 +1,57 @@
+// Sums of samples as fixed trees: the same bits whatever is summed apart, on however many threads or machines.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rawtexel::shading {
+
+/// Sums vectors of `width` values, one vector per sample. The sum over an aligned range [k 2^l, (k+1) 2^l) of samples is the sum of its
+/// left half plus the sum of its right half, in float up to 16 samples and in double above. Any set of samples is held as the fewest
+/// aligned ranges that cover it, so it has one representation, and sums made apart merge to the bits of a sum made in one go.
+class SampleTree {
+  public:
+    static constexpr int kFloatLevels = 4;   ///< ranges of up to 2^4 samples are sums of floats
+
+    explicit SampleTree(size_t width) : width_(width) {}
+
+    size_t width() const { return width_; }
+    /// Samples held.
+    uint64_t samples() const;
+
+    /// Forgets all samples; keeps the memory.
+    void clear();
+    /// Adds one sample that is not held yet (asserted); `values` has `width` entries.
+    void add(uint64_t sample, std::span<const float> values);
+    /// Adds the samples of `other`, none of which is held yet (asserted).
+    void merge(const SampleTree& other);
+
+    /// Sum of entries [first, first + sum.size()) over all samples: the ranges added in double from the last to the first.
+    void sum(size_t first, std::span<double> sum) const;
+    /// The same divided by samples(), rounded to float. At least one sample is held (asserted).
+    void mean(size_t first, std::span<float> mean) const;
+
+  private:
+    /// Sum of the 2^level samples from `first` on; one of the two arrays is in use.
+    struct Range {
+        uint64_t first = 0;
+        int level = 0;
+        std::vector<float> low;     ///< level <= kFloatLevels
+        std::vector<double> high;
+    };
+
+    bool are_siblings(const Range& left, const Range& right) const;
+    void combine(Range& left, Range& right);
+    void insert(Range range);
+    Range copy_of(uint64_t first, int level, std::span<const float> low, std::span<const double> high);
+    void recycle(Range& range);
+
+    size_t width_;
+    std::vector<Range> ranges_;                    ///< in the order of their samples
+    std::vector<std::vector<float>> free_low_;     ///< memory of ranges that are gone
+    std::vector<std::vector<double>> free_high_;
+};
+
+}  // namespace rawtexel::shading

@@ -1,0 +1,83 @@
+// Texture coordinates of a wave and their screen-space derivatives, for one addressing of a material.
+#if defined(RAWTEXEL_SHADING_COORDINATES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAWTEXEL_SHADING_COORDINATES_INL_H_
+#undef RAWTEXEL_SHADING_COORDINATES_INL_H_
+#else
+#define RAWTEXEL_SHADING_COORDINATES_INL_H_
+#endif
+
+#include "shading/corners-inl.h"
+#include "shading/draw_state.h"
+#include "texunit/sample.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rawtexel::shading {
+namespace HWY_NAMESPACE {
+
+/// One coordinate at the three corners of each lane's triangle.
+struct CornerCoordinate {
+    FloatVector f0, f1, f2;
+};
+
+/// Texture coordinates repeat, so an integer (an even one where they mirror) may be taken off each triangle: what remains is small
+/// and keeps its fraction's bits through interpolation however far from the origin the mesh was mapped.
+HWY_INLINE void reduce_range(texunit::Wrap wrap, CornerCoordinate& c) {
+    if (wrap == texunit::Wrap::ClampToEdge) return;
+    const FloatLanes d;
+    const auto least = hn::Min(c.f0, hn::Min(c.f1, c.f2));
+    const auto period = wrap == texunit::Wrap::MirroredRepeat ? hn::Mul(hn::Set(d, 2.0f), hn::Floor(hn::Mul(least, hn::Set(d, 0.5f)))) : hn::Floor(least);
+    c = {hn::Sub(c.f0, period), hn::Sub(c.f1, period), hn::Sub(c.f2, period)};
+}
+
+/// The coordinate at corner k after KHR_texture_transform: row `row` of the matrix.
+HWY_INLINE FloatVector transformed(const glm::mat3x2& m, int row, FloatVector u, FloatVector v) {
+    const FloatLanes d;
+    return hn::Add(hn::Add(hn::Mul(hn::Set(d, m[0][row]), u), hn::Mul(hn::Set(d, m[1][row]), v)), hn::Set(d, m[2][row]));
+}
+
+/// Both coordinates of the three corners, transformed; zero where the mesh lacks the set.
+template <class Corners>
+HWY_INLINE void corner_coordinates(const CoordinateState& state, const Mesh& mesh, const Corners& corners, size_t i, CornerCoordinate& u,
+                                   CornerCoordinate& v) {
+    const FloatLanes d;
+    u = v = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    const auto& set = mesh.uv[size_t(state.uv_set)];
+    if (!set.empty()) {
+        const float* values = &set[0].x;
+        u = {corners.template corner<2>(0, values, i), corners.template corner<2>(1, values, i), corners.template corner<2>(2, values, i)};
+        v = {corners.template corner<2>(0, values + 1, i), corners.template corner<2>(1, values + 1, i), corners.template corner<2>(2, values + 1, i)};
+    }
+    if (state.identity) return;
+    const glm::mat3x2& m = state.uv_from_vertex;
+    const CornerCoordinate u_set = u, v_set = v;
+    u = {transformed(m, 0, u_set.f0, v_set.f0), transformed(m, 0, u_set.f1, v_set.f1), transformed(m, 0, u_set.f2, v_set.f2)};
+    v = {transformed(m, 1, u_set.f0, v_set.f0), transformed(m, 1, u_set.f1, v_set.f1), transformed(m, 1, u_set.f2, v_set.f2)};
+}
+
+/// One coordinate and its derivatives at lanes [i, i + Lanes).
+HWY_INLINE void interpolate_coordinate(const CornerCoordinate& c, const raster::BarycentricWave& weights, size_t i, WaveFloat& value,
+                                       WaveFloat& ddx, WaveFloat& ddy) {
+    const FloatLanes d;
+    const auto f1 = hn::Sub(c.f1, c.f0), f2 = hn::Sub(c.f2, c.f0);
+    hn::Store(interpolate(load_weights(weights, i), c.f0, c.f1, c.f2), d, value.lane + i);
+    hn::Store(hn::Add(hn::Mul(hn::Load(d, weights.db1_dx + i), f1), hn::Mul(hn::Load(d, weights.db2_dx + i), f2)), d, ddx.lane + i);
+    hn::Store(hn::Add(hn::Mul(hn::Load(d, weights.db1_dy + i), f1), hn::Mul(hn::Load(d, weights.db2_dy + i), f2)), d, ddy.lane + i);
+}
+
+template <class Corners>
+HWY_INLINE void interpolate_coordinates(const CoordinateState& state, const Mesh& mesh, const Corners& corners,
+                                        const raster::BarycentricWave& weights, texunit::WaveCoordinates& out) {
+    for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(FloatLanes())) {
+        CornerCoordinate u, v;
+        corner_coordinates(state, mesh, corners, i, u, v);
+        reduce_range(state.wrap_s, u);
+        reduce_range(state.wrap_t, v);
+        interpolate_coordinate(u, weights, i, out.u, out.dudx, out.dudy);
+        interpolate_coordinate(v, weights, i, out.v, out.dvdx, out.dvdy);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rawtexel::shading
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,89 @@
+// The corners of the triangles behind a wave's lanes, and what is interpolated between them.
+#if defined(RAWTEXEL_SHADING_CORNERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAWTEXEL_SHADING_CORNERS_INL_H_
+#undef RAWTEXEL_SHADING_CORNERS_INL_H_
+#else
+#define RAWTEXEL_SHADING_CORNERS_INL_H_
+#endif
+
+#include "raster/interpolate.h"
+#include "shading/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rawtexel::shading {
+namespace HWY_NAMESPACE {
+
+/// All lanes lie on one triangle: corner values are loaded once.
+struct OneTriangle {
+    const uint32_t* vertex;   ///< 3 indices
+
+    /// Component of attribute `values` (`kStride` floats a vertex) at corner `k`.
+    template <int kStride>
+    HWY_INLINE FloatVector corner(int k, const float* values, size_t) const {
+        return hn::Set(FloatLanes(), values[size_t(vertex[k]) * kStride]);
+    }
+};
+
+/// Each lane has its own triangle: corner values are gathered.
+struct TrianglePerLane {
+    texunit::WaveInt vertex[3];   ///< lanes without a triangle hold a valid index
+
+    template <int kStride>
+    HWY_INLINE FloatVector corner(int k, const float* values, size_t i) const {
+        const IntLanes di;
+        const auto index = hn::Mul(hn::Load(di, vertex[k].lane + i), hn::Set(di, kStride));
+        return hn::GatherIndex(FloatLanes(), values, index);
+    }
+};
+
+/// Weights of corners 1 and 2.
+struct CornerWeights {
+    FloatVector b1, b2;
+};
+
+HWY_INLINE CornerWeights load_weights(const raster::BarycentricWave& weights, size_t i) {
+    const FloatLanes d;
+    return {hn::Load(d, weights.b1 + i), hn::Load(d, weights.b2 + i)};
+}
+
+/// Plain products and sums: texels are picked by what comes out.
+HWY_INLINE FloatVector interpolate(const CornerWeights& w, FloatVector f0, FloatVector f1, FloatVector f2) {
+    return hn::Add(f0, hn::Add(hn::Mul(w.b1, hn::Sub(f1, f0)), hn::Mul(w.b2, hn::Sub(f2, f0))));
+}
+
+template <int kStride, class Corners>
+HWY_INLINE FloatVector interpolate(const Corners& corners, const CornerWeights& w, const float* values, size_t i) {
+    return interpolate(w, corners.template corner<kStride>(0, values, i), corners.template corner<kStride>(1, values, i),
+                       corners.template corner<kStride>(2, values, i));
+}
+
+/// Three consecutive components.
+template <int kStride, class Corners>
+HWY_INLINE SpaceVector interpolate_vector(const Corners& corners, const CornerWeights& w, const float* values, size_t i) {
+    return {interpolate<kStride>(corners, w, values, i), interpolate<kStride>(corners, w, values + 1, i),
+            interpolate<kStride>(corners, w, values + 2, i)};
+}
+
+template <int kStride, class Corners>
+HWY_INLINE SpaceVector corner_vector(const Corners& corners, int k, const float* values, size_t i) {
+    return {corners.template corner<kStride>(k, values, i), corners.template corner<kStride>(k, values + 1, i),
+            corners.template corner<kStride>(k, values + 2, i)};
+}
+
+/// Snapping to 1/256 pixel can put a covered sample slightly outside its triangle, and far outside a sliver: attributes stay between
+/// their corners' values.
+HWY_INLINE void clamp_weights(raster::BarycentricWave& weights) {
+    const FloatLanes d;
+    const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) {
+        const CornerWeights w = load_weights(weights, i);
+        const auto b1 = hn::Min(hn::Max(w.b1, zero), one);
+        hn::Store(b1, d, weights.b1 + i);
+        hn::Store(hn::Min(hn::Max(w.b2, zero), hn::Sub(one, b1)), d, weights.b2 + i);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rawtexel::shading
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,115 @@
+#include "shading/draw_state.h"
+
+#include <cassert>
+
+namespace rawtexel::shading {
+namespace {
+
+/// Gathers with 32-bit indices reach element 4*vertex + 3.
+constexpr size_t kMaxVertices = size_t(1) << 29;
+
+/// Whether the value of the map can change what is seen, given the material's factors.
+bool map_matters(const Material& material, int slot, const LookupOverrides& overrides) {
+    if (slot == kBaseColor) {
+        const bool colored = glm::vec3(material.base_color) != glm::vec3(0.0f);
+        return colored || (material.alpha_mode != AlphaMode::Opaque && material.base_color.a != 0.0f);
+    }
+    if (material.unlit) return false;
+    switch (slot) {
+        case kMetallicRoughness: return material.metallic != 0.0f || material.roughness != 0.0f;
+        case kNormal: return material.normal_scale != 0.0f;
+        case kOcclusion: return material.occlusion_strength != 0.0f && overrides.occlusion;
+        case kEmissive: return material.emission != glm::vec3(0.0f);
+        default: return false;
+    }
+}
+
+bool same_addressing(const CoordinateState& a, const CoordinateState& b) {
+    return a.uv_set == b.uv_set && a.uv_from_vertex == b.uv_from_vertex && a.wrap_s == b.wrap_s && a.wrap_t == b.wrap_t;
+}
+
+/// Index of the coordinates that a map needs, added when they are new.
+int coordinates_of(MaterialState& state, const TextureMap& map) {
+    const glm::mat3x2 identity{1, 0, 0, 1, 0, 0};
+    const CoordinateState wanted{map.uv_set, map.uv_from_vertex == identity, map.uv_from_vertex, map.sampler.wrap_s, map.sampler.wrap_t};
+    for (int i = 0; i < state.coordinate_count; ++i)
+        if (same_addressing(state.coordinates[size_t(i)], wanted)) return i;
+    state.coordinates[size_t(state.coordinate_count)] = wanted;
+    return state.coordinate_count++;
+}
+
+MaterialState make_material_state(const Scene& scene, uint32_t index, const LookupOverrides& overrides) {
+    MaterialState state{.material = &scene.materials[index], .index = index, .maps = {}, .coordinates = {}};
+    for (int slot = 0; slot < kMapSlots; ++slot) {
+        const TextureMap& map = state.material->maps[size_t(slot)];
+        if (map.texture < 0 || !map_matters(*state.material, slot, overrides)) continue;
+        MapState& lookup = state.maps[size_t(slot)];
+        lookup.texture = scene.textures[size_t(map.texture)].texture.get();
+        lookup.texture_index = uint32_t(map.texture);
+        lookup.sampler = map.sampler;
+        if (overrides.filter) lookup.sampler.magnify = lookup.sampler.minify = *overrides.filter;
+        if (overrides.mip) lookup.sampler.mip = *overrides.mip;
+        lookup.coordinates = coordinates_of(state, map);
+    }
+    return state;
+}
+
+/// Columns are cross products of the matrix's columns: M's cofactors, which take cross(a, b) to cross(Ma, Mb).
+glm::mat3 cofactors(const glm::mat3& m) { return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])}; }
+
+DrawState make_draw_state(const Mesh& mesh, const MaterialState& material, const glm::mat4& world_from_object, uint32_t first_triangle_id) {
+    assert(mesh.positions.size() < kMaxVertices);
+    DrawState draw{.mesh = &mesh, .material = &material, .first_triangle_id = first_triangle_id, .world_from_object = world_from_object};
+    const glm::mat3 linear(world_from_object);
+    draw.handedness = glm::determinant(linear) < 0.0f ? -1.0f : 1.0f;
+    draw.world_from_normal = draw.handedness * cofactors(linear);
+    return draw;
+}
+
+raster::CoverageClass coverage_class(AlphaMode mode) {
+    switch (mode) {
+        case AlphaMode::Mask: return raster::CoverageClass::Masked;
+        case AlphaMode::Blend: return raster::CoverageClass::Blended;
+        case AlphaMode::Opaque: break;
+    }
+    return raster::CoverageClass::Opaque;
+}
+
+}  // namespace
+
+DrawStates make_draw_states(const Scene& scene, const LookupOverrides& overrides) {
+    DrawStates states;
+    states.materials.reserve(scene.materials.size());
+    for (uint32_t i = 0; i < scene.materials.size(); ++i) states.materials.push_back(make_material_state(scene, i, overrides));
+    states.draws.reserve(scene.instances.size());
+    uint32_t triangle_id = 0;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        states.draws.push_back(make_draw_state(mesh, states.materials[mesh.material], instance.world_from_object, triangle_id));
+        triangle_id += uint32_t(mesh.indices.size() / 3);
+    }
+    return states;
+}
+
+std::vector<raster::Draw> make_raster_draws(const DrawStates& states, const glm::mat4& clip_from_world, DrawPurpose purpose) {
+    std::vector<raster::Draw> draws;
+    draws.reserve(states.draws.size());
+    for (const DrawState& state : states.draws) {
+        const Material& material = *state.material->material;
+        const bool both_sides = material.double_sided || purpose == DrawPurpose::Shadow;
+        draws.push_back({
+            .positions = state.mesh->positions.data(),
+            .vertex_count = uint32_t(state.mesh->positions.size()),
+            .indices = state.mesh->indices.data(),
+            .triangle_count = uint32_t(state.mesh->indices.size() / 3),
+            .clip_from_object = clip_from_world * state.world_from_object,
+            .first_triangle_id = state.first_triangle_id,
+            .coverage = coverage_class(material.alpha_mode),
+            .cull = both_sides ? raster::CullMode::None : raster::CullMode::Back,
+            .front_is_clockwise = state.handedness < 0.0f,
+        });
+    }
+    return draws;
+}
+
+}  // namespace rawtexel::shading

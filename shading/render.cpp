@@ -1,0 +1,119 @@
+#include "shading/render.h"
+
+#include "shading/camera.h"
+#include "shading/draw_state.h"
+#include "shading/tile.h"
+#include "shading/tile_resolve.h"
+
+#include <atomic>
+#include <cassert>
+#include <chrono>
+
+namespace rawtexel::shading {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+PixelRect visible_pixels(const RenderOptions& options) {
+    const Crop& crop = options.crop;
+    if (crop.width == 0 && crop.height == 0) return {0, 0, options.width, options.height};
+    assert(crop.x >= 0 && crop.y >= 0 && crop.width > 0 && crop.height > 0);
+    assert(crop.x + crop.width <= options.width && crop.y + crop.height <= options.height);
+    return {crop.x, crop.y, crop.x + crop.width, crop.y + crop.height};
+}
+
+raster::Frame make_frame(const DrawStates& states, const RenderOptions& options, const PixelRect& visible, Executor& executor) {
+    const float aspect = float(options.width) / float(options.height);
+    const std::vector<raster::Draw> draws = make_raster_draws(states, clip_from_world(options.camera, aspect), DrawPurpose::Camera);
+    const raster::FrameOptions frame_options{
+        .width = options.width,
+        .height = options.height,
+        .crop_x = visible.x0,
+        .crop_y = visible.y0,
+        .crop_width = visible.x1 - visible.x0,
+        .crop_height = visible.y1 - visible.y0,
+        .tile_size = options.tile_size,
+        .filter_radius = filter_radius(options.pixel_filter),
+    };
+    return raster::Frame(frame_options, draws, parallel_for_of(executor));
+}
+
+/// One worker's memory, made when the worker gets its first tile.
+struct Worker {
+    Worker(const TileInputs& inputs, size_t texture_count) : scratch(inputs, texture_count), resolver(inputs) {}
+    TileScratch scratch;
+    TileResolver resolver;
+};
+
+/// The tiles that touch the visible pixels, row by row.
+struct TileRange {
+    TileRange(const PixelRect& visible, int tile_size)
+        : x0(visible.x0 / tile_size), y0(visible.y0 / tile_size), columns((visible.x1 - 1) / tile_size + 1 - x0),
+          rows((visible.y1 - 1) / tile_size + 1 - y0) {}
+    int64_t count() const { return int64_t(columns) * rows; }
+    int x(int64_t index) const { return x0 + int(index % columns); }
+    int y(int64_t index) const { return y0 + int(index / columns); }
+    int x0, y0, columns, rows;
+};
+
+/// Renders all tiles into the images of `result` and adds up the workers' totals.
+TileTotals render_tiles(const TileInputs& inputs, size_t texture_count, std::span<const Aov> aovs, RenderResult& result, Executor& executor,
+                        const Progress& progress) {
+    const TileRange tiles(inputs.visible, inputs.frame->options().tile_size);
+    std::vector<std::unique_ptr<Worker>> workers(size_t(executor.threads()));
+    std::atomic<int64_t> done{0};
+    executor.parallel_for(tiles.count(), [&](int64_t index, int number) {
+        std::unique_ptr<Worker>& worker = workers[size_t(number)];
+        if (!worker) worker = std::make_unique<Worker>(inputs, texture_count);
+        render_tile(inputs, tiles.x(index), tiles.y(index), worker->scratch);
+        worker->resolver.resolve(tiles.x(index), tiles.y(index), worker->scratch, aovs, result.radiance, result.layers);
+        if (progress) progress(double(++done) / double(tiles.count()));
+    });
+    TileTotals totals;
+    for (const std::unique_ptr<Worker>& worker : workers)
+        if (worker) totals += worker->scratch.totals;
+    return totals;
+}
+
+}  // namespace
+
+RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOptions& options, Executor& executor, const Progress& progress) {
+    const Clock::time_point start = Clock::now();
+    const PixelRect visible = visible_pixels(options);
+    const bool indirect_light = lighting.environment != nullptr || lighting.ambient != 0.0f;
+    const DrawStates states = make_draw_states(scene, {.filter = options.filter, .mip = options.mip, .occlusion = indirect_light});
+    const raster::Frame frame = make_frame(states, options, visible, executor);
+
+    RenderResult result;
+    result.times.geometry_s = seconds_since(start);
+    result.radiance = Image(visible.x1 - visible.x0, visible.y1 - visible.y0, 3);
+    for (const Aov aov : options.aovs) result.layers.push_back(make_layer(aov, result.radiance.width, result.radiance.height));
+
+    const TileInputs inputs{
+        .frame = &frame,
+        .draws = states.draws,
+        .lighting = &lighting,
+        .rays = make_view_rays(options.camera, options.width, options.height),
+        .visible = visible,
+        .spp = options.spp,
+        .pixel_filter = options.pixel_filter,
+        .pixel_jitter = options.pixel_jitter,
+        .seed = options.seed,
+        .background = options.background,
+        .planes = TilePlanes(options.aovs),
+        .count = options.count,
+    };
+    TileTotals totals = render_tiles(inputs, scene.textures.size(), options.aovs, result, executor, progress);
+    result.geometry = frame.counts();
+    result.geometry.hiz_rejected += totals.hiz_rejected;
+    result.samples_shaded = totals.samples_shaded;
+    if (options.count) result.fetches = std::move(totals.fetches);
+    result.times.raster_s = totals.raster_s;
+    result.times.shade_s = totals.shade_s;
+    result.times.frame_s = seconds_since(start);
+    return result;
+}
+
+}  // namespace rawtexel::shading

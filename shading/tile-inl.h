@@ -1,0 +1,298 @@
+// The tile kernel: for each sample, visibility -> interpolation -> lookups -> surface -> radiance -> sum.
+#if defined(RAWTEXEL_SHADING_TILE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAWTEXEL_SHADING_TILE_INL_H_
+#undef RAWTEXEL_SHADING_TILE_INL_H_
+#else
+#define RAWTEXEL_SHADING_TILE_INL_H_
+#endif
+
+#include "raster/visibility-inl.h"
+#include "shading/coverage-inl.h"
+#include "shading/environment-inl.h"
+#include "shading/fragment-inl.h"
+#include "shading/light-inl.h"
+#include "shading/lookup-inl.h"
+#include "shading/material-inl.h"
+#include "shading/tile.h"
+
+#include <bit>
+#include <chrono>
+
+HWY_BEFORE_NAMESPACE();
+namespace rawtexel::shading {
+namespace HWY_NAMESPACE {
+
+/// A block of pixels at one sample.
+struct PixelWave {
+    int x = 0, y = 0;                 ///< upper left pixel, in the frame
+    size_t index = 0;                 ///< in the tile, row by row
+    WaveMask inside = 0;              ///< pixels that are to be rendered
+    alignas(64) raster::SampleOffset offset[texunit::kWaveLanes];
+    alignas(64) uint32_t setup_index[texunit::kWaveLanes];
+    WaveVector direction;             ///< unit, from the eye through the sample points
+};
+
+template <class Count>
+class TileRenderer {
+  public:
+    TileRenderer(const TileInputs& inputs, int tile_x, int tile_y, TileScratch& scratch)
+        : inputs_(inputs), frame_(*inputs.frame), scratch_(scratch), tile_x_(tile_x), tile_y_(tile_y), tile_size_(frame_.options().tile_size),
+          waves_x_(tile_size_ / texunit::kWaveWidth), coverage_(frame_, inputs.draws, inputs.visible, inputs.seed) {}
+
+    void render() {
+        using Clock = std::chrono::steady_clock;
+        find_sequence_shifts();
+        scratch_.sums.clear();
+        for (uint32_t sample = 0; sample < uint32_t(inputs_.spp); ++sample) {
+            const auto start = Clock::now();
+            find_offsets(sample);
+            find_visible(sample);
+            const auto drawn = Clock::now();
+            shade_sample(sample);
+            scratch_.sums.add(sample, {scratch_.sample.data()->lane, scratch_.sample.size() * texunit::kWaveLanes});
+            scratch_.totals.raster_s += std::chrono::duration<double>(drawn - start).count();
+            scratch_.totals.shade_s += std::chrono::duration<double>(Clock::now() - drawn).count();
+        }
+    }
+
+  private:
+    size_t wave_count() const { return scratch_.texels.size(); }
+    WaveFloat& plane(int number, size_t wave) { return scratch_.sample[size_t(number) * wave_count() + wave]; }
+    WaveFloat& first_sample_plane(int number, size_t wave) { return scratch_.first_sample[size_t(number) * wave_count() + wave]; }
+    void store_vector(const WaveVector& value, WaveMask mask, int first_plane, size_t wave) {
+        store_wave(value.x, mask, plane(first_plane, wave));
+        store_wave(value.y, mask, plane(first_plane + 1, wave));
+        store_wave(value.z, mask, plane(first_plane + 2, wave));
+    }
+
+    void find_sequence_shifts() {
+        if (inputs_.pixel_jitter != PixelJitter::Pixel) return;
+        for (int y = 0, i = 0; y < tile_size_; ++y)
+            for (int x = 0; x < tile_size_; ++x, ++i)
+                scratch_.shifts[size_t(i)] = sequence_shift(inputs_.pixel_jitter, uint32_t(tile_x_ * tile_size_ + x), uint32_t(tile_y_ * tile_size_ + y), inputs_.seed);
+    }
+
+    void find_offsets(uint32_t sample) {
+        const PixelFilter filter = inputs_.pixel_filter;
+        frame_offset_ = sample_offset(filter, PixelJitter::Frame, sample, sequence_shift(PixelJitter::Frame, 0, 0, inputs_.seed));
+        if (inputs_.pixel_jitter != PixelJitter::Pixel) return;
+        for (size_t i = 0; i < scratch_.offsets.size(); ++i) scratch_.offsets[i] = sample_offset(filter, PixelJitter::Pixel, sample, scratch_.shifts[i]);
+    }
+
+    void find_visible(uint32_t sample) {
+        const bool per_pixel = inputs_.pixel_jitter == PixelJitter::Pixel;
+        const raster::TileSamples samples{frame_offset_, per_pixel ? scratch_.offsets.data() : nullptr};
+        if constexpr (Count::kCounts) std::fill(scratch_.texels.begin(), scratch_.texels.end(), texunit::Wave<uint32_t>{});
+        coverage_.begin_sample(sample);
+        const auto cover = [this](const raster::CandidateWave& candidate) HWY_ATTR {
+            const auto texels_of = [this](int x, int y) HWY_ATTR { return &scratch_.texels[wave_at(x - tile_x_ * tile_size_, y - tile_y_ * tile_size_)]; };
+            return coverage_.cover(candidate, scratch_.totals.fetches.data(), texels_of);
+        };
+        raster::HWY_NAMESPACE::tile_visibility(frame_, tile_x_, tile_y_, samples, cover, scratch_.visibility);
+        scratch_.totals.hiz_rejected += scratch_.visibility.hiz_rejected;
+    }
+
+    /// Index of the wave whose upper left pixel is (x, y) of the tile.
+    size_t wave_at(int x, int y) const { return size_t(y / texunit::kWaveHeight * waves_x_ + x / texunit::kWaveWidth); }
+
+    void shade_sample(uint32_t sample) {
+        for (int y = 0; y < tile_size_; y += texunit::kWaveHeight) {
+            for (int x = 0; x < tile_size_; x += texunit::kWaveWidth) {
+                wave_.x = tile_x_ * tile_size_ + x;
+                wave_.y = tile_y_ * tile_size_ + y;
+                wave_.index = wave_at(x, y);
+                wave_.inside = lanes_inside(inputs_.visible, wave_.x, wave_.y);
+                if (wave_.inside == 0) continue;
+                first_sample_ = sample == 0;
+                shade_wave(x, y);
+            }
+        }
+    }
+
+    /// The wave at pixel (x, y) of the tile.
+    void shade_wave(int x, int y) {
+        load_offsets(x, y);
+        find_directions();
+        clear_planes();
+        const WaveMask surface = load_triangles(x, y);
+        scratch_.totals.samples_shaded += uint64_t(std::popcount(surface));
+        if (surface != 0) shade_surfaces(surface);
+        if (wave_.inside & ~surface) shade_background(wave_.inside & ~surface);
+        if (inputs_.planes.texels >= 0) store_texels();
+    }
+
+    void load_offsets(int x, int y) {
+        for (int lane = 0; lane < texunit::kWaveLanes; ++lane) {
+            const size_t pixel = size_t((y + lane / texunit::kWaveWidth) * tile_size_ + x + lane % texunit::kWaveWidth);
+            wave_.offset[lane] = inputs_.pixel_jitter == PixelJitter::Pixel ? scratch_.offsets[pixel] : frame_offset_;
+        }
+    }
+
+    void find_directions() {
+        const FloatLanes d;
+        WaveFloat px, py;
+        for (int lane = 0; lane < texunit::kWaveLanes; ++lane) {
+            px[lane] = float(wave_.x + lane % texunit::kWaveWidth) + float(wave_.offset[lane].x) * (1.0f / raster::kSampleOne);
+            py[lane] = float(wave_.y + lane / texunit::kWaveWidth) + float(wave_.offset[lane].y) * (1.0f / raster::kSampleOne);
+        }
+        const SpaceVector corner = set3(d, inputs_.rays.corner), right = set3(d, inputs_.rays.right), down = set3(d, inputs_.rays.down);
+        for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) {
+            const SpaceVector along = add(add(corner, scale(right, hn::Load(d, px.lane + i))), scale(down, hn::Load(d, py.lane + i)));
+            store3(d, scale(along, hn::Div(hn::Set(d, 1.0f), hn::Sqrt(dot(along, along)))), wave_.direction, i);
+        }
+    }
+
+    /// Planes that only surfaces write start at nothing.
+    void clear_planes() {
+        for (int p = 3; p < inputs_.planes.count; ++p) plane(p, wave_.index) = {};
+        if (!first_sample_) return;
+        if (inputs_.planes.lod >= 0) first_sample_plane(inputs_.planes.lod, wave_.index) = {};
+        if (inputs_.planes.material >= 0) std::fill_n(first_sample_plane(inputs_.planes.material, wave_.index).lane, texunit::kWaveLanes, -1.0f);
+    }
+
+    /// Returns the lanes that see a triangle.
+    WaveMask load_triangles(int x, int y) {
+        WaveMask surface = 0;
+        for (int lane = 0; lane < texunit::kWaveLanes; ++lane) {
+            const size_t pixel = size_t((y + lane / texunit::kWaveWidth) * tile_size_ + x + lane % texunit::kWaveWidth);
+            wave_.setup_index[lane] = scratch_.visibility.triangle[pixel];
+            surface |= WaveMask(wave_.setup_index[lane] != raster::kNoTriangle) << lane;
+        }
+        return surface & wave_.inside;
+    }
+
+    /// One masked pass per draw that the wave sees.
+    void shade_surfaces(WaveMask surface) {
+        raster::HWY_NAMESPACE::barycentric_wave(frame_, wave_.setup_index, wave_.offset, wave_.x, wave_.y, surface, weights_);
+        clamp_weights(weights_);
+        for (WaveMask rest = surface; rest != 0;) {
+            const uint32_t first = wave_.setup_index[std::countr_zero(rest)];
+            const uint32_t draw = frame_.triangle(first).draw;
+            WaveMask pass = 0;
+            bool one_triangle = true;
+            for (WaveMask lanes = rest; lanes != 0; lanes &= lanes - 1) {
+                const int lane = std::countr_zero(lanes);
+                const raster::SetupTriangle& triangle = frame_.triangle(wave_.setup_index[lane]);
+                if (triangle.draw != draw) continue;
+                pass |= WaveMask(1) << lane;
+                one_triangle &= wave_.setup_index[lane] == first;
+                fragment_.facing[lane] = triangle.front_facing ? 1.0f : -1.0f;
+            }
+            rest &= ~pass;
+            interpolate(inputs_.draws[draw], pass, one_triangle);
+            shade_pass(inputs_.draws[draw], pass);
+        }
+    }
+
+    void interpolate(const DrawState& draw, WaveMask pass, bool one_triangle) {
+        const uint32_t* indices = draw.mesh->indices.data();
+        if (one_triangle) {
+            const raster::SetupTriangle& triangle = frame_.triangle(wave_.setup_index[std::countr_zero(pass)]);
+            interpolate_fragment(draw, OneTriangle{indices + size_t(triangle.primitive) * 3}, weights_, fragment_);
+            return;
+        }
+        TrianglePerLane corners{};
+        for (WaveMask lanes = pass; lanes != 0; lanes &= lanes - 1) {
+            const int lane = std::countr_zero(lanes);
+            const uint32_t* vertex = indices + size_t(frame_.triangle(wave_.setup_index[lane]).primitive) * 3;
+            for (int k = 0; k < 3; ++k) corners.vertex[k][lane] = int32_t(vertex[k]);
+        }
+        interpolate_fragment(draw, corners, weights_, fragment_);
+    }
+
+    void shade_pass(const DrawState& draw, WaveMask pass) {
+        const MaterialState& material = *draw.material;
+        const LookupCounts counts{scratch_.totals.fetches.data(), &scratch_.texels[wave_.index]};
+        WaveFloat lod = {};
+        const bool wants_lod = first_sample_ && inputs_.planes.lod >= 0;
+        look_up_maps<Count>(material, fragment_, pass, counts, maps_, wants_lod ? &lod : nullptr);
+        find_surface(draw, fragment_, maps_, surface_);
+        if (material.material->unlit) {
+            store_vector(surface_.base_color, pass, TilePlanes::kRadiance, wave_.index);
+        } else {
+            turn_to_viewer();
+            shade_lanes(*inputs_.lighting, surface_, pass, radiance_);
+            store_vector(radiance_, pass, TilePlanes::kRadiance, wave_.index);
+        }
+        if (inputs_.planes.hits >= 0) store_layers(draw, pass);
+        if (wants_lod) store_wave(lod, pass, first_sample_plane(inputs_.planes.lod, wave_.index));
+        if (first_sample_ && inputs_.planes.material >= 0)
+            store_value(float(material.index), pass, first_sample_plane(inputs_.planes.material, wave_.index));
+    }
+
+    void turn_to_viewer() {
+        const FloatLanes d;
+        const auto minus = hn::Set(d, -1.0f);
+        for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) store3(d, scale(load3(d, wave_.direction, i), minus), surface_.view, i);
+    }
+
+    void shade_background(WaveMask mask) {
+        if (inputs_.background) {
+            store_value(inputs_.background->x, mask, plane(0, wave_.index));
+            store_value(inputs_.background->y, mask, plane(1, wave_.index));
+            store_value(inputs_.background->z, mask, plane(2, wave_.index));
+        } else if (inputs_.lighting->environment) {
+            environment_radiance_lanes(*inputs_.lighting->environment, wave_.direction, mask, radiance_);
+            store_vector(radiance_, mask, TilePlanes::kRadiance, wave_.index);
+        } else {
+            for (int p = 0; p < 3; ++p) store_value(0.0f, mask, plane(p, wave_.index));
+        }
+    }
+
+    /// Layers that are means over the samples that saw a surface.
+    void store_layers(const DrawState& draw, WaveMask pass) {
+        const TilePlanes& planes = inputs_.planes;
+        store_value(1.0f, pass, plane(planes.hits, wave_.index));
+        if (planes.normal >= 0) store_vector(surface_.normal, pass, planes.normal, wave_.index);
+        if (planes.albedo >= 0) store_vector(surface_.base_color, pass, planes.albedo, wave_.index);
+        if (planes.depth >= 0) store_depth(pass);
+        if (planes.uv >= 0) store_uv(draw, pass);
+    }
+
+    void store_depth(WaveMask pass) {
+        const FloatLanes d;
+        const SpaceVector eye = set3(d, inputs_.rays.eye), forward = set3(d, inputs_.rays.forward);
+        WaveFloat depth;
+        for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d))
+            hn::Store(dot(sub(load3(d, fragment_.position, i), eye), forward), d, depth.lane + i);
+        store_wave(depth, pass, plane(inputs_.planes.depth, wave_.index));
+    }
+
+    /// Set 0 as the mesh has it, one lane after the other: a layer that few ask for.
+    void store_uv(const DrawState& draw, WaveMask pass) {
+        const auto& uv = draw.mesh->uv[0];
+        if (uv.empty()) return;
+        for (WaveMask lanes = pass; lanes != 0; lanes &= lanes - 1) {
+            const int lane = std::countr_zero(lanes);
+            const uint32_t* vertex = &draw.mesh->indices[size_t(frame_.triangle(wave_.setup_index[lane]).primitive) * 3];
+            const glm::vec2 value = uv[vertex[0]] + (weights_.b1[lane] * (uv[vertex[1]] - uv[vertex[0]]) + weights_.b2[lane] * (uv[vertex[2]] - uv[vertex[0]]));
+            plane(inputs_.planes.uv, wave_.index)[lane] = value.x;
+            plane(inputs_.planes.uv + 1, wave_.index)[lane] = value.y;
+        }
+    }
+
+    void store_texels() {
+        const texunit::Wave<uint32_t>& texels = scratch_.texels[wave_.index];
+        WaveFloat& out = plane(inputs_.planes.texels, wave_.index);
+        for (int lane = 0; lane < texunit::kWaveLanes; ++lane) out[lane] = float(texels[lane]);
+    }
+
+    const TileInputs& inputs_;
+    const raster::Frame& frame_;
+    TileScratch& scratch_;
+    int tile_x_, tile_y_, tile_size_, waves_x_;
+    AlphaCoverage<Count> coverage_;
+    raster::SampleOffset frame_offset_;
+    bool first_sample_ = false;
+    PixelWave wave_;
+    raster::BarycentricWave weights_;
+    FragmentWave fragment_;
+    MapColors maps_;
+    SurfaceWave surface_;
+    WaveVector radiance_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rawtexel::shading
+HWY_AFTER_NAMESPACE();
+#endif

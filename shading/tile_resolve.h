@@ -1,0 +1,40 @@
+// From a tile's sums to pixels of the images.
+#pragma once
+
+#include "shading/image.h"
+#include "shading/tile.h"
+
+#include <span>
+#include <vector>
+
+namespace rawtexel::shading {
+
+/// The empty layer of `aov`, named as in files: "depth.Z", "normal.X" ….
+Layer make_layer(Aov aov, int width, int height);
+
+/// One worker's: writes what a rendered tile holds to its pixels of the images, whose upper left pixel is that of `inputs.visible`.
+class TileResolver {
+  public:
+    explicit TileResolver(const TileInputs& inputs);
+
+    void resolve(int tile_x, int tile_y, const TileScratch& tile, std::span<const Aov> aovs, Image& radiance, std::span<Layer> layers);
+
+  private:
+    void resolve_layer(Aov aov, const TileScratch& tile, Image& image);
+    /// Means over samples, or over the samples that saw a surface.
+    void put_means(const SampleTree& sums, int first_plane, Image& image);
+    void put_surface_means(const SampleTree& sums, int first_plane, Image& image);
+    void put_first_sample(const TileScratch& tile, int plane, Image& image);
+    /// values_ to one channel of the image.
+    void put(int channel, Image& image) const;
+
+    const TileInputs& inputs_;
+    int tile_size_;
+    size_t pixels_;               ///< of a tile
+    PixelRect rect_;              ///< of the tile at hand that is visible
+    int origin_x_ = 0, origin_y_ = 0;
+    std::vector<float> values_;   ///< of one plane, in the order of waves
+    std::vector<double> sums_, hits_;
+};
+
+}  // namespace rawtexel::shading
