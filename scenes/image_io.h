@@ -20,8 +20,13 @@ class OutputError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// An image as a texture: header checked now, pixels read on first use, kept as 8-bit, 16-bit or float RGBA. Grey becomes r = g = b.
-/// `srgb`: 8-bit colour is decoded by the sRGB curve (16-bit colour likewise, float is linear already).
+/// The bytes of a regular file. Throws InputError.
+std::vector<std::byte> read_file(const std::string& path);
+
+/// An image as a texture: header checked now, pixels read on first use by whichever thread comes first, kept as RGBA of 8 or 16 bits,
+/// half or float. Grey becomes r = g = b; alpha is unassociated; profiles, gamma and orientation in the file play no part (glTF 2.0 3.9.2).
+/// `srgb`: colour is encoded by the sRGB curve. 8-bit colour keeps its codes, 16-bit colour is decoded to float, float is linear already.
+/// Damage found in the pixels is a texunit::TextureError of every texel.
 /// Throws InputError: missing, not a regular file, not an image, zero or over-large extents (1..16384), unsupported.
 std::unique_ptr<texunit::TexelSource> open_image(const std::string& path, bool srgb);
 std::unique_ptr<texunit::TexelSource> open_image_memory(std::string name, std::shared_ptr<const std::vector<std::byte>> encoded, bool srgb);

@@ -5,8 +5,13 @@
 
 namespace rawtexel::scenes {
 
-/// Fills mesh.tangents from positions, normals and uv set `uv_set` (all must be present); splits vertices where one vertex would need
-/// two tangents, so every attribute array and the indices may grow. Mesh size limits are the caller's.
-void generate_tangents(shading::Mesh& mesh, int uv_set);
+/// Fills mesh.tangents from positions, normals and uv set `uv_set` (all must be present), the coordinates taken through `uv_from_vertex`;
+/// splits vertices where one vertex would need two tangents, so every attribute array and the indices may grow. xyz is unit, w = +1 or -1
+/// with bitangent = w * cross(normal, tangent), pointing up in the image, against v (glTF has v down). Triangles without an area in
+/// texture space take the tangent of a neighbour, or any perpendicular to the normal. Mesh size limits are the caller's.
+void generate_tangents(shading::Mesh& mesh, int uv_set, const glm::mat3x2& uv_from_vertex = glm::mat3x2{1, 0, 0, 1, 0, 0});
+
+/// A unit vector at right angles to the unit vector `normal`.
+glm::vec3 perpendicular_to(const glm::vec3& normal);
 
 }  // namespace rawtexel::scenes

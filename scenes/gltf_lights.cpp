@@ -1,0 +1,78 @@
+#include "scenes/gltf_lights.h"
+
+#include "scenes/spelling.h"
+
+#include <cmath>
+
+namespace rawtexel::scenes {
+namespace {
+
+glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& otherwise) {
+    const double length = glm::length(v);
+    return length > 0.0 ? v / length : otherwise;
+}
+
+/// Rotation and position: looks along the node's -Z, its +Y as nearly up as that allows.
+glm::mat4 rigid(const glm::dmat4& world) {
+    const glm::dvec3 z = unit_or(glm::dvec3(world[2]), {0.0, 0.0, 1.0});
+    const glm::dvec3 y = glm::dvec3(world[1]);
+    const glm::dvec3 any_side = std::abs(z.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 x = unit_or(glm::cross(y, z), unit_or(any_side - z * glm::dot(any_side, z), any_side));
+    return glm::mat4(glm::dmat4(glm::dvec4(x, 0.0), glm::dvec4(glm::cross(z, x), 0.0), glm::dvec4(z, 0.0), world[3]));
+}
+
+}  // namespace
+
+shading::Light read_light(const GltfDocument& document, int index, const glm::dmat4& world) {
+    const tinygltf::Light& source = document.model.lights[size_t(index)];
+    const std::string what = "KHR_lights_punctual.lights[" + std::to_string(index) + "]";
+    shading::Light light;
+    light.name = source.name.empty() ? "light " + std::to_string(index) : one_line(source.name);
+    if (source.type == "directional")
+        light.type = shading::Light::Type::Directional;
+    else if (source.type == "point")
+        light.type = shading::Light::Type::Point;
+    else if (source.type == "spot")
+        light.type = shading::Light::Type::Spot;
+    else
+        document.fail(what + ".type is \"" + one_line(source.type) + "\" (allowed: directional, point, spot)");
+    if (!source.color.empty()) light.color = glm::vec3(source.color[0], source.color[1], source.color[2]);
+    light.intensity = float(source.intensity);
+    light.range = float(source.range);
+    light.position = glm::vec3(world[3]);
+    light.direction = glm::vec3(unit_or(-glm::dvec3(world[2]), {0.0, 0.0, -1.0}));
+    light.inner_cone = float(source.spot.innerConeAngle);
+    light.outer_cone = float(source.spot.outerConeAngle);
+    if (light.type == shading::Light::Type::Spot && !(source.spot.innerConeAngle < source.spot.outerConeAngle))
+        document.fail(what + ".spot has an inner cone of " + std::to_string(source.spot.innerConeAngle) + " and an outer cone of " +
+                      std::to_string(source.spot.outerConeAngle) + " (the inner must be smaller)");
+    return light;
+}
+
+shading::Camera read_camera(const GltfDocument& document, int index, const glm::dmat4& world) {
+    const tinygltf::Camera& source = document.model.cameras[size_t(index)];
+    const std::string what = "cameras[" + std::to_string(index) + "]";
+    shading::Camera camera;
+    camera.name = source.name.empty() ? "camera " + std::to_string(index) : one_line(source.name);
+    camera.world_from_camera = rigid(world);
+    const bool perspective = source.type == "perspective";
+    const double znear = perspective ? source.perspective.znear : source.orthographic.znear;
+    const double zfar = perspective ? source.perspective.zfar : source.orthographic.zfar;
+    camera.znear = float(znear);
+    camera.zfar = float(zfar);
+    if (perspective) {
+        camera.type = shading::Camera::Type::Perspective;
+        camera.vertical_fov = float(source.perspective.yfov);
+    } else {
+        camera.type = shading::Camera::Type::Orthographic;
+        camera.xmag = float(std::abs(source.orthographic.xmag));
+        camera.ymag = float(std::abs(source.orthographic.ymag));
+        if (!(camera.xmag > 0.0f && camera.ymag > 0.0f)) document.fail(what + " has a magnification of zero (allowed: above 0)");
+    }
+    const bool unlimited = perspective && camera.zfar == 0.0f;
+    if (!unlimited && !(camera.zfar > camera.znear))
+        document.fail(what + " has its far plane at " + std::to_string(zfar) + " (allowed: beyond the near plane at " + std::to_string(znear) + ")");
+    return camera;
+}
+
+}  // namespace rawtexel::scenes

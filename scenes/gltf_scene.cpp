@@ -1,0 +1,128 @@
+// From a checked glTF document to the scene that is drawn.
+#include "scenes/load.h"
+
+#include "scenes/accessor.h"
+#include "scenes/gltf_deform.h"
+#include "scenes/gltf_document.h"
+#include "scenes/gltf_lights.h"
+#include "scenes/gltf_materials.h"
+#include "scenes/gltf_nodes.h"
+#include "scenes/gltf_notices.h"
+#include "scenes/gltf_primitive.h"
+#include "scenes/gltf_textures.h"
+#include "scenes/spelling.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <tuple>
+
+namespace rawtexel::scenes {
+namespace {
+
+class SceneBuilder {
+  public:
+    SceneBuilder(const GltfDocument& document, const LoadOptions& options)
+        : document_(document), notices_(document.path, options), accessors_(document), textures_(document, options.texture, notices_),
+          nodes_(flatten_nodes(document)) {}
+
+    shading::Scene build() {
+        read_names();
+        scene_.materials = read_materials(document_, textures_, notices_);
+        for (const int node : nodes_.shown) add_node(node);
+        scene_.textures = textures_.take();
+        return std::move(scene_);
+    }
+
+  private:
+    void read_names() {
+        scene_.name = std::filesystem::path(document_.path).stem().string();
+        const tinygltf::Model& model = document_.model;
+        if (model.scenes.empty()) return;
+        const tinygltf::Scene& source = model.scenes[size_t(std::max(model.defaultScene, 0))];
+        if (!source.extras.Has("rawtexel") || !source.extras.Get("rawtexel").Has("environment")) return;
+        const std::string environment = source.extras.Get("rawtexel").Get("environment").Get<std::string>();
+        if (environment != "sky" && environment != "none")
+            document_.fail("extras.rawtexel.environment is \"" + one_line(environment) + "\" (allowed: sky, none)");
+        scene_.environment = environment == "sky" ? shading::EnvironmentRequest::Sky : shading::EnvironmentRequest::None;
+    }
+
+    void add_node(int index) {
+        const tinygltf::Node& node = document_.model.nodes[size_t(index)];
+        const glm::dmat4& world = nodes_.world[size_t(index)];
+        if (node.mesh >= 0) add_mesh(index, node);
+        if (node.camera >= 0) scene_.cameras.push_back(read_camera(document_, node.camera, world));
+        if (const auto light = node.extensions.find("KHR_lights_punctual"); light != node.extensions.end())
+            scene_.lights.push_back(read_light(document_, light->second.Get("light").GetNumberAsInt(), world));
+    }
+
+    void add_mesh(int index, const tinygltf::Node& node) {
+        const tinygltf::Mesh& mesh = document_.model.meshes[size_t(node.mesh)];
+        const std::vector<float> weights = morph_weights(node, mesh);
+        const bool skinned = node.skin >= 0;
+        if (skinned) notices_.say_once("skinned meshes are drawn as their joints stand in the file");
+        const SkinPose pose = skinned ? skin_pose(document_, accessors_, node.skin, nodes_.world) : SkinPose{};
+        for (size_t p = 0; p < mesh.primitives.size(); ++p) {
+            const auto drawn = drawn_mesh({node.mesh, int(p), skinned ? index : -1, weights}, skinned ? &pose : nullptr);
+            if (!drawn) continue;
+            // Skinning has moved the vertices into the world already.
+            const glm::mat4 world = skinned ? glm::mat4(1.0f) : glm::mat4(nodes_.world[size_t(index)]);
+            scene_.instances.push_back({*drawn, world});
+        }
+    }
+
+    /// The node's weights before the mesh's; empty where no primitive has targets.
+    std::vector<float> morph_weights(const tinygltf::Node& node, const tinygltf::Mesh& mesh) {
+        const bool morphed = std::ranges::any_of(mesh.primitives, [](const tinygltf::Primitive& p) { return !p.targets.empty(); });
+        if (!morphed) return {};
+        notices_.say_once("morph targets are drawn at their default weights");
+        const std::vector<double>& weights = node.weights.empty() ? mesh.weights : node.weights;
+        return {weights.begin(), weights.end()};
+    }
+
+    /// Which mesh of the scene a primitive becomes: nodes that draw it alike share it. (mesh, primitive, node if skinned, weights)
+    using MeshKey = std::tuple<int, int, int, std::vector<float>>;
+
+    std::optional<uint32_t> drawn_mesh(const MeshKey& key, const SkinPose* pose) {
+        const auto [entry, is_new] = meshes_.try_emplace(key, std::nullopt);
+        if (!is_new) return entry->second;
+        const auto& [mesh, primitive, node, weights] = key;
+        const int material = document_.model.meshes[size_t(mesh)].primitives[size_t(primitive)].material;
+        const uint32_t drawn_material = material >= 0 ? uint32_t(material) : default_material();
+        const shading::TextureMap& normal_map = scene_.materials[drawn_material].maps[shading::kNormal];
+        const PrimitiveRequest request{mesh, primitive, weights, pose, normal_map.texture >= 0 ? &normal_map : nullptr};
+        auto read = read_primitive(document_, accessors_, request, notices_);
+        if (!read) return std::nullopt;
+        read->material = drawn_material;
+        entry->second = uint32_t(scene_.meshes.size());
+        scene_.meshes.push_back(std::move(*read));
+        return entry->second;
+    }
+
+    /// What primitives without a material are drawn with (glTF 2.0, 3.9.6), made when one is met.
+    uint32_t default_material() {
+        if (!default_material_) {
+            default_material_ = uint32_t(scene_.materials.size());
+            scene_.materials.emplace_back().name = "default";
+        }
+        return *default_material_;
+    }
+
+    const GltfDocument& document_;
+    GltfNotices notices_;
+    Accessors accessors_;
+    GltfTextures textures_;
+    GltfNodes nodes_;
+    shading::Scene scene_;
+    std::map<MeshKey, std::optional<uint32_t>> meshes_;
+    std::optional<uint32_t> default_material_;
+};
+
+}  // namespace
+
+shading::Scene load_gltf(const std::string& path, const LoadOptions& options) {
+    const GltfDocument document = read_gltf_document(path, options);
+    return SceneBuilder(document, options).build();
+}
+
+}  // namespace rawtexel::scenes

@@ -1,0 +1,21 @@
+// The shape that glTF 2.0 gives its JSON, as tables, and the check of a document against them.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <stdexcept>
+#include <string>
+
+namespace rawtexel::scenes {
+
+/// What is wrong with a document, without the file's name: "meshes[0].primitives[1].mode is "x" (allowed are integers)".
+class SchemaError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// The part of `document` that the loader reads, every value of the right type, every index inside the array it points into, numbers as
+/// doubles. Unknown properties, extensions and extras are left out. Throws SchemaError.
+nlohmann::json checked_gltf(const nlohmann::json& document);
+
+}  // namespace rawtexel::scenes

@@ -1,0 +1,38 @@
+// The textures of a glTF: each image once per use as colour or as data.
+#pragma once
+
+#include "scenes/gltf_document.h"
+#include "scenes/gltf_notices.h"
+
+#include "shading/scene.h"
+
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace rawtexel::scenes {
+
+class GltfTextures {
+  public:
+    /// Opens every image of the document, used or not. Throws InputError.
+    GltfTextures(const GltfDocument& document, const texunit::TextureOptions& options, GltfNotices& notices);
+
+    /// Index into `textures()` of glTF texture `texture` read as sRGB-encoded colour or as data. Throws InputError.
+    int texture(int texture, bool srgb);
+    /// Its sampler; silent properties are bilinear, linear between levels, and repeat.
+    texunit::SamplerState sampler(int texture) const;
+
+    std::vector<shading::SceneTexture> take() { return std::move(textures_); }
+
+  private:
+    int image_of(int texture);
+    std::unique_ptr<texunit::TexelSource> open(int image, bool srgb) const;
+
+    const GltfDocument& document_;
+    texunit::TextureOptions options_;
+    GltfNotices& notices_;
+    std::vector<shading::SceneTexture> textures_;
+    std::map<std::pair<int, bool>, int> known_;   ///< (image, srgb) to index
+};
+
+}  // namespace rawtexel::scenes
