@@ -1,0 +1,252 @@
+// Weights and derivatives, held against quadruple precision; the wave held against the scalar bit for bit.
+#include "raster/interpolate.h"
+#include "tests/raster/drawing.h"
+#include "tests/raster/scenes.h"
+#include "tests/reference/raster/exact_coverage.h"
+#include "tests/reference/raster/exact_interpolation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace rawtexel::raster {
+namespace {
+
+using namespace testing;
+using reference::Quad;
+
+constexpr int kSize = 64;
+
+FrameOptions frame_options() {
+    FrameOptions options;
+    options.width = options.height = kSize;
+    options.filter_radius = kPatternRadius;
+    return options;
+}
+
+/// The unclipped triangle that a setup triangle stems from: of whole triangles the snapped positions, else the exact ones.
+void source_vertices(const SetupTriangle& triangle, const Draw& draw, reference::QuadVertex (&vertex)[3]) {
+    for (uint32_t i = 0; i < 3; ++i) {
+        vertex[i] = reference::to_screen(draw.clip_from_object, draw.positions[draw.indices[3 * triangle.primitive + i]], kSize, kSize);
+    }
+    if (triangle.bary_over_w != nullptr) return;
+    for (int k = 0; k < 3; ++k) {
+        reference::QuadVertex& v = vertex[triangle.corner[k]];
+        v.x = Quad(triangle.x[k]) / 256 * v.w;
+        v.y = Quad(triangle.y[k]) / 256 * v.w;
+    }
+}
+
+/// Calls visit(triangle, x, y) for some samples that each setup triangle covers.
+template <class Visit>
+void for_covered_samples(const Frame& frame, int stride, Visit&& visit) {
+    for (uint32_t i = 0; i < frame.triangle_count(); ++i) {
+        const SetupTriangle& triangle = frame.triangle(i);
+        const reference::SnappedTriangle snapped = reference::snapped(triangle);
+        for (int y = int(i) % stride; y < kSize; y += stride) {
+            for (int x = int(i / 7) % stride; x < kSize; x += stride) {
+                const SampleOffset offset{256, 256};
+                if (reference::covers(snapped, x * 512 + offset.x, y * 512 + offset.y)) visit(triangle, x + 0.5, y + 0.5);
+            }
+        }
+    }
+}
+
+struct WorstWeights {
+    double weight = 0, derivative = 0, depth = 0;
+};
+
+/// Greatest error of b1 and b2, of their derivatives relative to the size of the terms they are the difference of, and of depth.
+WorstWeights worst_against_quadruple(const Frame& frame, std::span<const Draw> draws) {
+    WorstWeights worst;
+    for_covered_samples(frame, 5, [&](const SetupTriangle& triangle, double x, double y) {
+        reference::QuadVertex vertex[3];
+        source_vertices(triangle, draws[triangle.draw], vertex);
+        const reference::QuadWeights exact = reference::weights_at(vertex, x, y);
+        const Barycentrics got = barycentrics(triangle, x, y);
+        worst.weight = std::max({worst.weight, std::abs(double(got.b1 - exact.b[1])), std::abs(double(got.b2 - exact.b[2]))});
+        EXPECT_NEAR(double(got.inverse_w / exact.inverse_w), 1.0, 1e-9);
+
+        // Central differences in quadruple: error of order h^2, h = 2^-44 pixel, next to nothing even where w changes a million-
+        // fold within a pixel.
+        const Quad h = 0x1p-44;
+        const reference::QuadWeights right = reference::weights_at(vertex, x + h, y), left = reference::weights_at(vertex, x - h, y);
+        const reference::QuadWeights below = reference::weights_at(vertex, x, y + h), above = reference::weights_at(vertex, x, y - h);
+        const double got_slopes[4] = {got.db1_dx, got.db2_dx, got.db1_dy, got.db2_dy};
+        const Quad exact_slopes[4] = {(right.b[1] - left.b[1]) / (2 * h), (right.b[2] - left.b[2]) / (2 * h), (below.b[1] - above.b[1]) / (2 * h),
+                                      (below.b[2] - above.b[2]) / (2 * h)};
+        double largest = 0;
+        for (const Quad& slope : exact_slopes) largest = std::max(largest, std::abs(double(slope)));
+        for (int i = 0; i < 4; ++i) worst.derivative = std::max(worst.derivative, std::abs(double(got_slopes[i] - exact_slopes[i])) / largest);
+
+        const double x0 = x - triangle.x[0] / 256.0, y0 = y - triangle.y[0] / 256.0;
+        const double depth = triangle.depth_at_origin + (triangle.depth_dx * x0 + triangle.depth_dy * y0);
+        worst.depth = std::max(worst.depth, std::abs(double(depth - exact.depth)));
+    });
+    return worst;
+}
+
+void record(const WorstWeights& worst) {
+    const auto property = [](const char* name, double value) { ::testing::Test::RecordProperty(name, ::testing::PrintToString(value)); };
+    property("worst_weight", worst.weight);
+    property("worst_derivative", worst.derivative);
+    property("worst_depth", worst.depth);
+}
+
+TEST(Interpolation, EqualsQuadruplePrecisionOnWholeTriangles) {
+    std::mt19937 random(1);
+    // All before the camera; w from 0.1 to 1e5 within one triangle, that is 1 : 1e6.
+    Mesh mesh;
+    for (int i = 0; i < 400; ++i) {
+        const auto corner = [&] {
+            const float depth = std::pow(10.0f, uniform(random, -1, 5));
+            return glm::vec3(uniform(random, -1, 1) * depth, uniform(random, -1, 1) * depth, -depth);
+        };
+        mesh.add(corner(), corner(), corner());
+    }
+    const Draw draw = mesh.draw(perspective(0.9f, 1, 0.05f));
+    const Frame frame(frame_options(), {&draw, 1});
+    ASSERT_EQ(frame.counts().clipped, 0u);
+    const WorstWeights worst = worst_against_quadruple(frame, {&draw, 1});
+    EXPECT_LE(worst.weight, 0x1p-50);
+    // The quotient rule cancels about as many digits as the w of the corners differ by.
+    EXPECT_LE(worst.derivative, 1e-9);
+    EXPECT_LE(worst.depth, 1e-12);
+    record(worst);
+}
+
+TEST(Interpolation, EqualsQuadruplePrecisionOnClippedTriangles) {
+    std::mt19937 random(2);
+    Mesh mesh;
+    for (int i = 0; i < 600; ++i) {
+        const float size = std::exp2(uniform(random, -1, 12));
+        const auto corner = [&] { return size * glm::vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1.5f, 0.5f)); };
+        mesh.add(corner(), corner(), corner());
+    }
+    const Draw draw = mesh.draw(perspective(0.9f, 1, 0.05f));
+    const Frame frame(frame_options(), {&draw, 1});
+    ASSERT_GT(frame.counts().clipped, 100u);
+    const WorstWeights worst = worst_against_quadruple(frame, {&draw, 1});
+    EXPECT_LE(worst.weight, 1e-12);
+    EXPECT_LE(worst.derivative, 1e-11);
+    EXPECT_LE(worst.depth, 1e-12);
+    record(worst);
+}
+
+TEST(Interpolation, GivesSnappedVerticesTheirOwnAttributes) {
+    const MixedScene scene(3);
+    const Frame frame(frame_options(), scene.draws);
+    int whole = 0;
+    for (uint32_t i = 0; i < frame.triangle_count(); ++i) {
+        const SetupTriangle& triangle = frame.triangle(i);
+        if (triangle.bary_over_w != nullptr) continue;
+        ++whole;
+        for (int k = 0; k < 3; ++k) {
+            const Barycentrics at = barycentrics(triangle, triangle.x[k] / 256.0, triangle.y[k] / 256.0);
+            EXPECT_EQ(float(at.b1), triangle.corner[k] == 1 ? 1.0f : 0.0f);
+            EXPECT_EQ(float(at.b2), triangle.corner[k] == 2 ? 1.0f : 0.0f);
+            EXPECT_NEAR(at.inverse_w / triangle.inverse_w[size_t(k)], 1.0, 1e-14);
+        }
+    }
+    EXPECT_GT(whole, 50);
+}
+
+TEST(Interpolation, NeverLeavesTheVerticesRangeOnWholeTriangles) {
+    std::mt19937 random(4);
+    Mesh mesh;
+    for (int i = 0; i < 3000; ++i) {
+        // Slivers and crumbs, where a plane in floating point would overshoot.
+        const float x = uniform(random, 0, kSize), y = uniform(random, 0, kSize), length = std::exp2(uniform(random, -4, 11)), angle = uniform(random, 0, 6.3f);
+        const glm::vec3 a(x, y, 0.5f), b = a + length * glm::vec3(std::cos(angle), std::sin(angle), 0);
+        const float width = std::exp2(uniform(random, -7, 1));
+        mesh.add(a, b, (a + b) * 0.5f + glm::vec3(uniform(random, -width, width), uniform(random, -width, width), 0.4f));
+    }
+    const Draw draw = mesh.draw(clip_from_pixels(kSize, kSize));
+    const Frame frame(frame_options(), {&draw, 1});
+    int samples = 0;
+    for_covered_samples(frame, 1, [&](const SetupTriangle& triangle, double x, double y) {
+        const Barycentrics at = barycentrics(triangle, x, y);
+        EXPECT_GE(at.b1, 0.0);
+        EXPECT_GE(at.b2, 0.0);
+        EXPECT_LE(at.b1 + at.b2, 1.0 + 0x1p-51);
+        ++samples;
+    });
+    EXPECT_GT(samples, 1000);
+}
+
+TEST(Interpolation, LeavesTheVerticesRangeOnPiecesByNoMoreThanSnappingMoves) {
+    std::mt19937 random(5);
+    Mesh mesh;
+    for (int i = 0; i < 1500; ++i) {
+        const float size = std::exp2(uniform(random, -1, 12));
+        const auto corner = [&] { return size * glm::vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1.5f, 0.5f)); };
+        mesh.add(corner(), corner(), corner());
+    }
+    const Draw draw = mesh.draw(perspective(0.9f, 1, 0.05f));
+    const Frame frame(frame_options(), {&draw, 1});
+    int samples = 0;
+    for_covered_samples(frame, 1, [&](const SetupTriangle& triangle, double x, double y) {
+        if (triangle.bary_over_w == nullptr) return;
+        const Barycentrics at = barycentrics(triangle, x, y);
+        const double b[3] = {1 - at.b1 - at.b2, at.b1, at.b2};
+        const double dx[3] = {-at.db1_dx - at.db2_dx, at.db1_dx, at.db2_dx}, dy[3] = {-at.db1_dy - at.db2_dy, at.db1_dy, at.db2_dy};
+        for (int i = 0; i < 3; ++i) EXPECT_GE(b[i], -(std::abs(dx[i]) + std::abs(dy[i])) / 256 - 1e-9) << "weight " << i << " at " << x << "," << y;
+        ++samples;
+    });
+    EXPECT_GT(samples, 10000);
+}
+
+bool same_bits(const BarycentricWave& p, const BarycentricWave& q) {
+    return std::memcmp(&p, &q, sizeof(p)) == 0;
+}
+
+/// What the wave must hold, from the scalar.
+BarycentricWave expected_wave(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y, uint32_t mask) {
+    BarycentricWave wave{};
+    for (int lane = 0; lane < 32; ++lane) {
+        if ((mask >> lane & 1u) == 0) continue;
+        const Barycentrics at =
+            barycentrics(frame.triangle(setup_index[lane]), x + lane % 8 + offset[lane].x / 512.0, y + lane / 8 + offset[lane].y / 512.0);
+        wave.b1[lane] = float(at.b1);
+        wave.b2[lane] = float(at.b2);
+        wave.db1_dx[lane] = float(at.db1_dx);
+        wave.db2_dx[lane] = float(at.db2_dx);
+        wave.db1_dy[lane] = float(at.db1_dy);
+        wave.db2_dy[lane] = float(at.db2_dy);
+    }
+    return wave;
+}
+
+TEST(Interpolation, OfAWaveEqualsTheScalarBitForBitOnEveryInstructionSet) {
+    const MixedScene scene(6, 200);
+    const Frame frame(frame_options(), scene.draws);
+    ASSERT_GT(frame.counts().clipped, 0u);
+    std::mt19937 random(7);
+    for (int round = 0; round < 400; ++round) {
+        uint32_t setup_index[32];
+        SampleOffset offset[32];
+        const uint32_t distinct = uint32_t(1 + random() % 5), base = uint32_t(random());
+        uint32_t mask = round % 3 == 0 ? 0xFFFFFFFFu : uint32_t(random()) & uint32_t(random());
+        if (round == 1) mask = 0;
+        for (int lane = 0; lane < 32; ++lane) {
+            setup_index[lane] = (base + uint32_t(random()) % distinct * 31) % frame.triangle_count();
+            // What is outside the mask must not even be looked at.
+            if ((mask >> lane & 1u) == 0) setup_index[lane] = kNoTriangle;
+            offset[lane] = {int32_t(random() % 1024) - 256, int32_t(random() % 1024) - 256};
+        }
+        const int x = int(random() % 8) * 8, y = int(random() % 16) * 4;
+        const BarycentricWave expected = expected_wave(frame, setup_index, offset, x, y, mask);
+        for (const int64_t set : instruction_sets()) {
+            const UseInstructionSet use(set);
+            BarycentricWave got;
+            std::memset(&got, 0xFF, sizeof(got));
+            interpolate_wave(frame, setup_index, offset, x, y, mask, got);
+            ASSERT_TRUE(same_bits(got, expected)) << name_of(set) << ", round " << round << ", mask " << mask;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rawtexel::raster
