@@ -90,7 +90,8 @@ HWY_INLINE Vector3<V> latlong_radiance(D d, const Environment::Tables& tables, c
     const auto i00 = texel(left, upper), i10 = texel(right, upper), i01 = texel(left, lower), i11 = texel(right, lower);
     const auto channel = [&](int c) HWY_ATTR {
         const float* base = tables.latlong.data() + c;
-        return mixed(d, at, hn::GatherIndex(d, base, i00), hn::GatherIndex(d, base, i10), hn::GatherIndex(d, base, i01), hn::GatherIndex(d, base, i11));
+        return mixed(d, at, hn::GatherIndex(d, base, i00), hn::GatherIndex(d, base, i10), hn::GatherIndex(d, base, i01),
+                     hn::GatherIndex(d, base, i11));
     };
     return {channel(0), channel(1), channel(2)};
 }
@@ -153,7 +154,7 @@ HWY_INLINE V roughness_level(D d, const RoughnessScale& scale, V roughness) {
     const V one = hn::Set(d, 1.0f), offset = hn::Sub(roughness, hn::Set(d, first));
     const float slope = float(kSpecularLevels - 2) * (1.0f + bend) / (1.0f - first);
     const V wide = hn::Add(hn::Div(hn::Mul(offset, hn::Set(d, slope)), hn::Add(roughness, hn::Set(d, bend))), one);
-    const V narrow = hn::Mul(roughness, hn::Set(d, 1.0f / first));
+    const V narrow = hn::Mul(hn::Mul(roughness, roughness), hn::Set(d, 1.0f / (first * first)));
     return hn::IfThenElse(hn::Lt(offset, hn::Zero(d)), narrow, wide);
 }
 

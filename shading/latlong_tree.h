@@ -10,13 +10,19 @@
 
 namespace rawtexel::shading {
 
+/// A symmetric 3x3 matrix.
+struct Covariance {
+    float xx, yy, zz, xy, yz, zx;
+};
+
 /// The light of one patch of the sphere. `direction` is the flux-weighted mean of unit vectors, not normalised: for a kernel f(n.l) that is
-/// smooth over the patch, f(n . direction) * flux is right up to the variance of n.l within the patch.
+/// smooth over the patch, f(n . direction) * flux is right up to the variance of n.l within the patch, which is n^T spread n.
 struct LightNode {
     glm::vec3 direction;
     float radius;          ///< chord from the patch's centre to its farthest corner, at most
     glm::vec3 flux;        ///< radiance times solid angle, summed
     float solid_angle;     ///< steradians
+    Covariance spread;     ///< of the flux's directions about their mean
 };
 
 /// Nodes of one level, row by row; a node (x, y) has the children (2x, 2y) .. (2x+1, 2y+1) of the finer level, where they exist.

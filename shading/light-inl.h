@@ -51,15 +51,14 @@ HWY_INLINE Vector3<V> environment_radiance(D d, const Environment::Tables& table
     if (!hn::AllFalse(d, hn::Gt(most, hn::Zero(d)))) {
         const Vector3<V> light = diffuse_radiance(d, tables, p.normal);
         const V entering = hn::Mul(hn::Sub(one, diffuse_fresnel(d, n_dot_v)), hn::Set(d, 3.14159265f));
-        const auto diffuse = [&](V f0, V color, V arriving_light) HWY_ATTR {
-            return hn::Mul(hn::Mul(hn::Mul(hn::Sub(one, f0), entering), color), arriving_light);
-        };
-        radiance = add(radiance, {diffuse(p.f0.x, p.diffuse.x, light.x), diffuse(p.f0.y, p.diffuse.y, light.y), diffuse(p.f0.z, p.diffuse.z, light.z)});
+        const Vector3<V> reflected = mul(p.diffuse, light);
+        const auto diffuse = [&](V f0, V reflected_light) HWY_ATTR { return hn::Mul(hn::Mul(hn::Sub(one, f0), entering), reflected_light); };
+        radiance = add(radiance, {diffuse(p.f0.x, reflected.x), diffuse(p.f0.y, reflected.y), diffuse(p.f0.z, reflected.z)});
     }
     return scale(radiance, p.occlusion);
 }
 
-/// Radiance towards the viewer at the lanes of `mask`: shade_surface of lighting.h. Lanes outside the mask are finite where their surface is.
+/// Radiance towards the viewer at the lanes of `mask`: shade_surface of lighting.h.
 inline void shade_lanes(const Lighting& lighting, const SurfaceWave& surface, WaveMask mask, WaveVector& radiance) {
     const hn::ScalableTag<float> d;
     for (size_t i = 0; i < size_t(texunit::kWaveLanes); i += hn::Lanes(d)) {

@@ -17,8 +17,8 @@
 #define RAWTEXEL_SHADING_PREFILTER_ONCE_
 namespace rawtexel::shading {
 
-/// Outputs are made in squares of 4x4 texels, which share one walk of the tree.
-inline constexpr int kBlock = 4, kBlockTexels = kBlock * kBlock;
+/// Outputs are made in squares of 8x8 texels, which share one walk of the tree.
+inline constexpr int kBlock = 8, kBlockTexels = kBlock * kBlock;
 
 struct OutputBlock {
     alignas(64) float x[kBlockTexels], y[kBlockTexels], z[kBlockTexels];          ///< directions
@@ -32,20 +32,32 @@ HWY_BEFORE_NAMESPACE();
 namespace rawtexel::shading {
 namespace HWY_NAMESPACE {
 
-/// Sums kernel(n.l) * flux over the nodes for all 16 outputs: lanes are outputs, so the order of a sum is that of the nodes on every target.
+/// Sums kernel(n.l) * flux over the nodes for all outputs of a block: lanes are outputs, so the order of a sum is that of the nodes on
+/// every target. A node's directions vary: the mean of the kernel over it is taken to second order,  K(c) + var(c)/2 K''(c)  with c the
+/// mean of n.l, var(c) = n^T C n,  K = c/g^2,  K''/2 = (2 b + 3 b^2 c/g)/g^3,  g = offset - b c.
 inline void gather_block(const LightNode* nodes, size_t count, const LobeKernel& kernel, OutputBlock& block) {
-    const hn::CappedTag<float, kBlockTexels> d;
-    const auto zero = hn::Zero(d), offset = hn::Set(d, float(kernel.offset)), slope = hn::Set(d, float(kernel.slope));
+    const hn::ScalableTag<float> d;
+    const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f), three = hn::Set(d, 3.0f);
+    const auto offset = hn::Set(d, float(kernel.offset)), slope = hn::Set(d, float(kernel.slope));
     const auto normalisation = hn::Set(d, float(kernel.normalisation));
     for (size_t i = 0; i < size_t(kBlockTexels); i += hn::Lanes(d)) {
-        const auto nx = hn::Load(d, block.x + i), ny = hn::Load(d, block.y + i), nz = hn::Load(d, block.z + i);
+        const auto x = hn::Load(d, block.x + i), y = hn::Load(d, block.y + i), z = hn::Load(d, block.z + i);
+        const auto xx = hn::Mul(x, x), yy = hn::Mul(y, y), zz = hn::Mul(z, z);
+        const auto xy = hn::Mul(hn::Mul(x, y), two), yz = hn::Mul(hn::Mul(y, z), two), zx = hn::Mul(hn::Mul(z, x), two);
         auto red = zero, green = zero, blue = zero;
         for (size_t k = 0; k < count; ++k) {
             const LightNode& node = nodes[k];
-            const auto x = hn::Mul(nx, hn::Set(d, node.direction.x)), y = hn::Mul(ny, hn::Set(d, node.direction.y));
-            const auto cosine = hn::Max(hn::Add(hn::Add(x, y), hn::Mul(nz, hn::Set(d, node.direction.z))), zero);
-            const auto spread = hn::Sub(offset, hn::Mul(slope, cosine));
-            const auto weight = hn::Div(cosine, hn::Mul(spread, spread));
+            const auto in_plane = hn::Add(hn::Mul(x, hn::Set(d, node.direction.x)), hn::Mul(y, hn::Set(d, node.direction.y)));
+            const auto cosine = hn::Max(hn::Add(in_plane, hn::Mul(z, hn::Set(d, node.direction.z))), zero);
+            auto variance = hn::Add(hn::Mul(xx, hn::Set(d, node.spread.xx)), hn::Mul(yy, hn::Set(d, node.spread.yy)));
+            variance = hn::Add(variance, hn::Mul(zz, hn::Set(d, node.spread.zz)));
+            variance = hn::Add(variance, hn::Mul(xy, hn::Set(d, node.spread.xy)));
+            variance = hn::Add(variance, hn::Mul(yz, hn::Set(d, node.spread.yz)));
+            variance = hn::Add(variance, hn::Mul(zx, hn::Set(d, node.spread.zx)));
+            const auto inverse = hn::Div(one, hn::Sub(offset, hn::Mul(slope, cosine)));
+            const auto bend = hn::Mul(slope, inverse);
+            const auto curvature = hn::Mul(bend, hn::Add(hn::Mul(hn::Mul(bend, cosine), three), two));
+            const auto weight = hn::Mul(hn::Mul(hn::Add(cosine, hn::Mul(variance, curvature)), inverse), inverse);
             red = hn::Add(red, hn::Mul(weight, hn::Set(d, node.flux.r)));
             green = hn::Add(green, hn::Mul(weight, hn::Set(d, node.flux.g)));
             blue = hn::Add(blue, hn::Mul(weight, hn::Set(d, node.flux.b)));
@@ -58,7 +70,7 @@ inline void gather_block(const LightNode* nodes, size_t count, const LobeKernel&
 
 /// Adds the image's own radiance at each output's direction.
 inline void add_mirrored(const Environment::Tables& tables, OutputBlock& block) {
-    const hn::CappedTag<float, kBlockTexels> d;
+    const hn::ScalableTag<float> d;
     for (size_t i = 0; i < size_t(kBlockTexels); i += hn::Lanes(d)) {
         const auto light = latlong_radiance(d, tables, {hn::Load(d, block.x + i), hn::Load(d, block.y + i), hn::Load(d, block.z + i)});
         hn::Store(hn::Add(hn::Load(d, block.red + i), light.x), d, block.red + i);
@@ -78,25 +90,28 @@ HWY_EXPORT(add_mirrored);
 namespace {
 
 /// Largest patch that stands for its parts, as a share of the lobe's scale at its distance.
-constexpr float kPatchShare = 0.25f;
-/// Wide lobes are cut off at the horizon: patches that straddle it must be small.
-constexpr float kWidestPatch = 0.08f;
+constexpr float kPatchShare = 0.45f;
+/// Lobes wider than kWideAlpha feel their edge at the horizon: patches that straddle it are kept small.
+constexpr float kWideAlpha = 0.2f, kWidePatch = 0.05f;
+/// Texels of a map per lobe, and the least side of a map: a cosine lobe must not show facets.
+constexpr double kTexelsPerLobe = 16.0, kLeastExtent = 96.0;
+
+int whole_blocks(double texels) { return int(std::ceil(texels / kBlock)) * kBlock; }
 
 /// Side of the map that holds the image itself.
-int mirror_extent(int width) { return std::clamp((width + kBlock - 1) / kBlock * kBlock, 64, 2048); }
+int mirror_extent(int width) { return whole_blocks(std::clamp(width, 64, 2048)); }
 
-/// Side of a lobe's map, texels: several across the lobe, as fine as the image deserves, never so coarse that a cosine lobe shows facets.
+/// Side of a lobe's map, texels: as fine as the lobe needs and the image deserves.
 int lobe_extent(double alpha, int width) {
-    const double finest = std::clamp(width / 2, 64, 1024);
-    const double wanted = std::clamp(10.0 / alpha, 64.0, finest);
-    return int(std::ceil(wanted / kBlock)) * kBlock;
+    const double finest = std::clamp(0.75 * width, kLeastExtent, 1024.0);
+    return whole_blocks(std::clamp(kTexelsPerLobe / alpha, kLeastExtent, finest));
 }
 
 /// Walks the tree for one block of outputs.
 class PatchSelection {
   public:
     PatchSelection(const std::vector<LightLevel>& tree, float alpha)
-        : tree_(tree), alpha2_(4.0f * alpha * alpha), widest_(alpha > 0.2f ? kWidestPatch : 1e9f) {}
+        : tree_(tree), scale2_(4.0f * alpha * alpha), largest_(alpha > kWideAlpha ? kWidePatch : 2.0f) {}
 
     /// Nodes that together hold all light within 90 degrees of the outputs, which lie within `radius` (chord) of `center`.
     const std::vector<LightNode>& select(const glm::vec3& center, float radius) {
@@ -115,8 +130,7 @@ class PatchSelection {
         // The mean direction may lie anywhere in the patch; at a chord of sqrt(2) it is beyond the horizon of every output.
         if (distance - 2.0f * node.radius > std::numbers::sqrt2_v<float>) return;
         const float gap = std::max(distance - node.radius, 0.0f);
-        const float limit2 = kPatchShare * kPatchShare * (alpha2_ + gap * gap);
-        const bool small = node.radius * node.radius <= limit2 && node.radius <= widest_;
+        const bool small = node.radius <= largest_ && node.radius * node.radius <= kPatchShare * kPatchShare * (scale2_ + gap * gap);
         if (small || level == 0) {
             nodes_.push_back(node);
             return;
@@ -127,7 +141,7 @@ class PatchSelection {
     }
 
     const std::vector<LightLevel>& tree_;
-    float alpha2_, widest_;
+    float scale2_, largest_;
     glm::vec3 center_{0.0f};
     float radius_ = 0.0f;
     std::vector<LightNode> nodes_;
@@ -213,9 +227,9 @@ double LobeKernel::density(double cosine) const {
 void prefilter(const Image& latlong, Executor& executor, Environment::Tables& tables) {
     const std::vector<LightLevel> tree = make_light_tree(latlong, executor);
 
-    // The first lobe is as wide as half a finest node.
-    const double node = std::numbers::pi / tree[0].height;
-    tables.scale.first = float(std::sqrt(std::clamp(0.5 * node, double(kMinAlpha), 0.02)));
+    // The narrowest lobe has an alpha of one finest node: its light is then twice as wide as what the tree resolves.
+    const double node = std::numbers::pi * std::max(1.0 / tree[0].height, 2.0 / tree[0].width);
+    tables.scale.first = float(std::sqrt(std::max(node, double(kMinAlpha))));
 
     // Lay the maps out, finest first: the costly rows start early.
     struct Row {

@@ -79,7 +79,8 @@ HWY_INLINE ReceiverPlane<V> receiver_plane(D d, const ShadowMap& map, const Vect
 
 /// Weight of one row of four taps whose texels are nearer to the light than the receiver.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V hidden_row(D d, const ShadowMap& map, const ReceiverPlane<V>& plane, const TentTaps<V>& columns, V row, V row_weight, V hidden) {
+HWY_INLINE V hidden_row(D d, const ShadowMap& map, const ReceiverPlane<V>& plane, const TentTaps<V>& columns, V row, V row_weight,
+                        V hidden) {
     const hn::RebindToSigned<D> di;
     const V zero = hn::Zero(d), half = hn::Set(d, 0.5f), extent = hn::Set(d, float(map.size));
     const V plane_y = hn::Add(plane.depth, hn::Mul(hn::Sub(hn::Add(row, half), plane.y), plane.dz_dy));

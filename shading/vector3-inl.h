@@ -1,4 +1,4 @@
-// Three-component vectors, one vector register per component. Plain products and sums in a fixed order: the same bits on every instruction set.
+// Three-component vectors, one register per component. Plain products and sums in a fixed order: the same bits on every instruction set.
 #if defined(RAWTEXEL_SHADING_VECTOR3_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RAWTEXEL_SHADING_VECTOR3_INL_H_
 #undef RAWTEXEL_SHADING_VECTOR3_INL_H_
