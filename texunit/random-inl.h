@@ -45,7 +45,7 @@ HWY_INLINE V random_bits_v(D d, uint32_t seed, uint32_t sample, V x, V y, V surf
 
 /// In [0, 1): the top 24 bits times 2^-24.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE hn::Vec<hn::Rebind<float, D>> unit_float_v(D d, V bits) {
+HWY_INLINE hn::Vec<hn::Rebind<float, D>> unit_float_v(D, V bits) {
     const hn::Rebind<float, D> df;
     const hn::Rebind<int32_t, D> di;
     return hn::Mul(hn::ConvertTo(df, hn::BitCast(di, hn::ShiftRight<8>(bits))), hn::Set(df, 0x1p-24f));
