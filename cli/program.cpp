@@ -5,6 +5,7 @@
 #include "cli/commands/export.h"
 #include "cli/commands/list.h"
 #include "cli/commands/render.h"
+#include "cli/option_values.h"
 #include "cli/run_record.h"
 #include "cli/spelling.h"
 #include "cli/version.h"
@@ -68,11 +69,8 @@ std::optional<size_t> find_command_word(const Words& words, const Commands& comm
 [[noreturn]] void throw_no_command(const Words& words, const Commands& commands) {
     const Words names = names_of(commands);
     const auto named = std::ranges::find_if(words, [](const std::string& word) { return !word.starts_with('-'); });
-    if (named != words.end()) {
-        std::string all;
-        for (const std::string& name : names) all += (all.empty() ? "" : " ") + name;
-        throw UsageError("unknown command '" + *named + "', the nearest is '" + nearest_spelling(*named, names) + "' (" + all + ")");
-    }
+    if (named != words.end())
+        throw UsageError("unknown command '" + *named + "', the nearest is '" + nearest_spelling(*named, names) + "' (" + join(names, " ") + ")");
     if (words.empty()) throw UsageError("no command given; `rawtexel --help` lists them");
     throw UsageError("unknown option '" + words[0] + "', the nearest is '" + nearest_spelling(words[0], Words{"--help", "--version"}) + "'");
 }

@@ -3,9 +3,10 @@
 #include "cli/image_output.h"
 #include "cli/metrics/metrics.h"
 #include "cli/option_values.h"
-#include "cli/output_file.h"
+#include "cli/output_check.h"
 #include "cli/version.h"
 #include "scenes/image_io.h"
+#include "scenes/output_file.h"
 
 #include <nlohmann/json.hpp>
 
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <span>
 
 namespace rawtexel::cli {
 namespace {
@@ -154,7 +156,7 @@ class CompareCommand : public Command {
             comparisons.push_back(compare(words_[i], reference, i == 0, invocation.command_line));
         }
         invocation.out << (json_ ? print_json(reference_path, comparisons) : print_table(comparisons));
-        if (!csv_.empty()) write_text(csv_, print_csv(reference_path, comparisons));
+        if (!csv_.empty()) write_csv(reference_path, comparisons);
         return check(comparisons, invocation) ? kDone : kCheckFailed;
     }
 
@@ -165,6 +167,11 @@ class CompareCommand : public Command {
             check_output(output_);
         }
         if (!csv_.empty()) check_output(csv_);
+    }
+
+    void write_csv(const std::string& reference, const std::vector<Comparison>& comparisons) const {
+        const std::string text = print_csv(reference, comparisons);
+        scenes::write_file(csv_, std::as_bytes(std::span(text)));
     }
 
     Comparison compare(const std::string& path, const Image& reference, bool is_first, const std::string& command) const {

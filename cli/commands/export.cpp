@@ -1,6 +1,6 @@
 #include "cli/commands/export.h"
 
-#include "cli/output_file.h"
+#include "cli/output_check.h"
 #include "scenes/export.h"
 #include "scenes/load.h"
 

@@ -4,7 +4,7 @@
 #include "cli/image_output.h"
 #include "cli/metadata.h"
 #include "cli/option_values.h"
-#include "cli/output_file.h"
+#include "cli/output_check.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
 #include "cli/run_record.h"
@@ -12,9 +12,11 @@
 #include "cli/stats.h"
 #include "cli/view.h"
 #include "scenes/load.h"
+#include "scenes/output_file.h"
 #include "shading/render.h"
 
 #include <optional>
+#include <span>
 
 namespace rawtexel::cli {
 namespace {
@@ -23,9 +25,9 @@ constexpr int kMaxRepeats = 100000;
 
 void choose_instruction_set(texunit::Simd simd) {
     if (texunit::choose_simd(simd)) return;
-    std::string available;
-    for (const texunit::Simd set : texunit::available_simd()) available += (available.empty() ? "" : " ") + std::string(to_string(set));
-    throw UsageError("--simd: " + std::string(to_string(simd)) + " is not available on this machine (" + available + ")");
+    std::vector<std::string> available;
+    for (const texunit::Simd set : texunit::available_simd()) available.emplace_back(to_string(set));
+    throw UsageError("--simd: " + std::string(to_string(simd)) + " is not available on this machine (" + join(available, " ") + ")");
 }
 
 shading::RenderOptions frame_options(const RenderRequest& request, const shading::Camera& camera, std::vector<shading::Aov> aovs, bool count) {
@@ -92,6 +94,7 @@ class RenderCommand : public Command {
     void check_outputs(const Invocation& invocation) const;
     shading::RenderResult render_frames(const shading::Scene& scene, const shading::Lighting& lighting, const shading::RenderOptions& options,
                                         shading::Executor& executor, const Invocation& invocation, RunRecord& record) const;
+    void write_stats(const RunRecord& record, const shading::Scene& scene) const;
 
     std::vector<std::string> words_;
     std::string scene_, output_, stats_;
@@ -147,6 +150,11 @@ shading::RenderResult RenderCommand::render_frames(const shading::Scene& scene, 
     return first;
 }
 
+void RenderCommand::write_stats(const RunRecord& record, const shading::Scene& scene) const {
+    const std::string text = stats_json(record, scene);
+    scenes::write_file(stats_, std::as_bytes(std::span(text)));
+}
+
 int RenderCommand::run(const Invocation& invocation) {
     const double start = ProgressReport::steady_seconds();
     settle_words();
@@ -176,7 +184,7 @@ int RenderCommand::run(const Invocation& invocation) {
     const double end = ProgressReport::steady_seconds();
     record.times.write_s = end - write_start;
     record.times.total_s = end - start;
-    if (!stats_.empty()) write_text(stats_, stats_json(record, scene));
+    if (!stats_.empty()) write_stats(record, scene);
 
     invocation.out << "Camera: " << view.options << '\n';
     if (count_) print_fetches(invocation.out, record.result);

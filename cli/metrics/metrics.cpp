@@ -55,7 +55,7 @@ ImageError image_error(std::span<const float> test, std::span<const float> refer
     error.mse = sums.square / count;
     error.rmse = std::sqrt(error.mse);
     error.rel_mse = sums.relative / count;
-    error.psnr = error.mse > 0 ? -10.0 * std::log10(error.mse) : std::numeric_limits<double>::infinity();
+    error.psnr = error.mse > 0 ? 0.0 - 10.0 * std::log10(error.mse) : std::numeric_limits<double>::infinity();
     error.max = sums.max;
     error.mean = sums.absolute / count;
     return error;

@@ -1,0 +1,74 @@
+#include "cli/option_values.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <random>
+
+namespace rawtexel::cli {
+namespace {
+
+TEST(OptionValues, PrintedNumbersReadBackBitForBit) {
+    std::mt19937 random(1);
+    for (int i = 0; i < 100000; ++i) {
+        const float value = std::bit_cast<float>(uint32_t(random()));
+        if (!std::isfinite(value)) continue;
+        const float back = parse_number("--x", print_number(value));
+        ASSERT_EQ(std::bit_cast<uint32_t>(back), std::bit_cast<uint32_t>(value)) << print_number(value);
+    }
+}
+
+TEST(OptionValues, PrintedVectorsReadBack) {
+    const glm::vec3 value(-0.1f, 1e-30f, 12345.678f);
+    EXPECT_EQ(parse_vector("--eye", print_vector(value)), value);
+}
+
+TEST(OptionValues, NumbersAreReadWholeOrNotAtAll) {
+    for (const char* text : {"", " ", "1 ", " 1", "1x", "x", "0x10", "nan", "inf", "-inf", "1e999", "+1", "1,2", "--1"})
+        EXPECT_THROW(parse_number("--x", text), UsageError) << '"' << text << '"';
+    for (const char* text : {"", "1.0", "1e3", "99999999999999999999", "- 1"})
+        EXPECT_THROW(parse_integer("--x", text, -1000, 1000), UsageError) << '"' << text << '"';
+}
+
+TEST(OptionValues, RangesIncludeTheirEnds) {
+    EXPECT_EQ(parse_integer("--x", "1", 1, 4), 1);
+    EXPECT_EQ(parse_integer("--x", "4", 1, 4), 4);
+    EXPECT_THROW(parse_integer("--x", "0", 1, 4), UsageError);
+    EXPECT_THROW(parse_integer("--x", "5", 1, 4), UsageError);
+    EXPECT_EQ(parse_number("--x", "-64", -64, 64), -64.0f);
+    EXPECT_THROW(parse_number("--x", "64.001", -64, 64), UsageError);
+}
+
+TEST(OptionValues, ListsHaveTheirLength) {
+    EXPECT_EQ(parse_numbers("--x", "1,2", "A,B[,C]", 2, 3).size(), 2u);
+    EXPECT_EQ(parse_numbers("--x", "1,2,-.5", "A,B[,C]", 2, 3)[2], -0.5f);
+    for (const char* text : {"1", "1,2,3,4", "1,,2", ",1,2", "1,2,"}) EXPECT_THROW(parse_numbers("--x", text, "A,B[,C]", 2, 3), UsageError) << text;
+}
+
+TEST(OptionValues, ErrorsNameOptionTextAndWhatIsAllowed) {
+    try {
+        parse_integer("--spp", "zero", 1, 16);
+        FAIL();
+    } catch (const UsageError& error) {
+        EXPECT_STREQ(error.what(), "--spp: 'zero' is not a whole number from 1 to 16");
+    }
+    try {
+        parse_word("--shadows", "onn", {"on", "off"});
+        FAIL();
+    } catch (const UsageError& error) {
+        EXPECT_STREQ(error.what(), "--shadows: unknown value 'onn', the nearest is 'on' (on off)");
+    }
+}
+
+TEST(OptionValues, SplitAndJoinAreInverse) {
+    for (const std::string text : {"", "a", "a,b", ",", "a,,b"}) {
+        const std::vector<std::string> words = split(text, ',');
+        std::string joined = words[0];
+        for (size_t i = 1; i < words.size(); ++i) joined += "," + words[i];
+        EXPECT_EQ(joined, text);
+    }
+}
+
+}  // namespace
+}  // namespace rawtexel::cli

@@ -1,0 +1,137 @@
+#include "cli/render_options.h"
+
+#include <gtest/gtest.h>
+
+namespace rawtexel::cli {
+namespace {
+
+RenderRequest request_of(const std::vector<std::string>& words) {
+    RenderRequest request;
+    CommandLine line("test", "test");
+    declare_render_options(line, request);
+    line.parse(words);
+    settle(request);
+    return request;
+}
+
+std::string error_of(const std::vector<std::string>& words) {
+    try {
+        request_of(words);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(RenderOptions, DefaultsAreThoseOfTheContract) {
+    const RenderRequest request = request_of({});
+    EXPECT_EQ(request.image_size(), (ImageSize{1280, 720}));
+    EXPECT_EQ(request.crop.width, 0);
+    EXPECT_EQ(request.samples.spp, 1);
+    EXPECT_EQ(request.samples.seed, 0u);
+    EXPECT_EQ(request.samples.pixel_filter, shading::PixelFilter::Box);
+    EXPECT_EQ(request.samples.pixel_jitter, shading::PixelJitter::Frame);
+    EXPECT_FALSE(request.lookup.filter || request.lookup.mip);
+    EXPECT_EQ(request.lookup.mip_storage, texunit::MipStorage::Source);
+    EXPECT_FALSE(request.tone.exposure || request.tone.tone_map || request.tone.transfer);
+    EXPECT_EQ(request.machine.threads, 0);
+    EXPECT_EQ(request.machine.tile_size, 64);
+    EXPECT_EQ(request.machine.simd, texunit::Simd::Auto);
+    EXPECT_EQ(request.machine.progress, ProgressMode::Auto);
+    EXPECT_FALSE(request.light.light || request.light.ambient || request.light.shadows || request.light.environment || request.light.background);
+}
+
+TEST(RenderOptions, EveryOptionReachesItsMember) {
+    const RenderRequest request =
+        request_of({"--size",        "640x480", "--crop",  "10,20,30,40", "--camera",      "front",        "--target",  "1,2,3",  "--fov",        "60",
+                    "--light",       "0,-1,0,2", "--ambient", "0.25",      "--shadows",     "off",          "--environment", "sky.exr", "--background", "1,0,.5",
+                    "--filter",      "nearest", "--mip",   "none",        "--mip-storage", "float",        "--spp",     "16",     "--pixel-filter", "tent",
+                    "--pixel-jitter", "pixel",  "--seed",  "4294967295",  "--exposure",    "-1.5",         "--tonemap", "reinhard", "--transfer", "sqrt",
+                    "--threads",     "3",       "--tile-size", "128",     "--simd",        "scalar",       "--progress", "never"});
+    EXPECT_EQ(request.image_size(), (ImageSize{640, 480}));
+    EXPECT_EQ(print(request.crop), "10,20,30,40");
+    EXPECT_EQ(request.view.camera, "front");
+    EXPECT_EQ(request.view.target, glm::vec3(1, 2, 3));
+    EXPECT_EQ(request.view.fov, 60.0f);
+    EXPECT_EQ(*request.light.light, (SunOption{{0, -1, 0}, 2}));
+    EXPECT_EQ(request.light.ambient, 0.25f);
+    EXPECT_EQ(request.light.shadows, false);
+    EXPECT_EQ(*request.light.environment, (EnvironmentOption{EnvironmentKind::File, "sky.exr"}));
+    EXPECT_EQ(request.light.background, glm::vec3(1, 0, 0.5f));
+    EXPECT_EQ(request.lookup.filter, texunit::Kernel::Nearest);
+    EXPECT_EQ(request.lookup.mip, texunit::MipMode::None);
+    EXPECT_EQ(request.lookup.mip_storage, texunit::MipStorage::Float);
+    EXPECT_EQ(request.samples.spp, 16);
+    EXPECT_EQ(request.samples.pixel_filter, shading::PixelFilter::Tent);
+    EXPECT_EQ(request.samples.pixel_jitter, shading::PixelJitter::Pixel);
+    EXPECT_EQ(request.samples.seed, 4294967295u);
+    EXPECT_EQ(request.tone.exposure, -1.5f);
+    EXPECT_EQ(request.tone.tone_map, shading::ToneMap::Reinhard);
+    EXPECT_EQ(request.tone.transfer, shading::Transfer::Sqrt);
+    EXPECT_EQ(request.machine.threads, 3);
+    EXPECT_EQ(request.machine.tile_size, 128);
+    EXPECT_EQ(request.machine.simd, texunit::Simd::Scalar);
+    EXPECT_EQ(request.machine.progress, ProgressMode::Never);
+}
+
+TEST(RenderOptions, PrintedValuesReadBack) {
+    EXPECT_EQ(parse_size(print(ImageSize{16384, 1})), (ImageSize{16384, 1}));
+    EXPECT_EQ(parse_orbit(print(Orbit{-30.5f, 12.25f, 0.1f})), (Orbit{-30.5f, 12.25f, 0.1f}));
+    EXPECT_EQ(parse_light(print(SunOption{{0.1f, -1, 3}, 2.5f})), (SunOption{{0.1f, -1, 3}, 2.5f}));
+    for (const std::string text : {"sky", "none", "a/b.hdr"}) EXPECT_EQ(print(parse_environment(text)), text);
+    for (const std::string text : {"scene", "nearest", "bilinear"}) EXPECT_EQ(print_filter(parse_filter(text)), text);
+    for (const std::string text : {"scene", "linear", "nearest", "none"}) EXPECT_EQ(print_mip(parse_mip(text)), text);
+    for (const std::string text : {"source", "float"}) EXPECT_EQ(print(parse_mip_storage(text)), text);
+}
+
+TEST(RenderOptions, OptionalPartsHaveDefaults) {
+    EXPECT_EQ(parse_orbit("10,20").zoom, 1.0f);
+    EXPECT_EQ(parse_light("0,-1,0").intensity, 3.0f);
+    EXPECT_FALSE(parse_background("environment"));
+}
+
+TEST(RenderOptions, WrongValuesAreRefusedWithTheNearest) {
+    const std::initializer_list<std::pair<std::vector<std::string>, const char*>> cases{
+        {{"--filter", "bilinaer"}, "--filter: unknown value 'bilinaer', the nearest is 'bilinear' (scene nearest bilinear)"},
+        {{"--mip", "liner"}, "--mip: unknown value 'liner', the nearest is 'linear' (scene linear nearest none)"},
+        {{"--tonemap", "ACES"}, "--tonemap: unknown value 'ACES', the nearest is 'aces' (aces reinhard none)"},
+        {{"--shadows", "of"}, "--shadows: unknown value 'of', the nearest is 'off' (on off)"},
+        {{"--tile-size", "48"}, "--tile-size: unknown value '48', the nearest is '64' (32 64 128)"},
+        {{"--background", "enviroment"}, "--background: unknown value 'enviroment', the nearest is 'environment' (environment)"},
+        {{"--size", "0x4"}, "--size: '0' is not a whole number from 1 to 16384"},
+        {{"--size", "64"}, "--size: '64' is not WxH, such as 1280x720"},
+        {{"--spp", "0"}, "--spp: '0' is not a whole number from 1 to 1048576"},
+        {{"--seed", "-1"}, "--seed: '-1' is not a whole number from 0 to 4294967295"},
+        {{"--fov", "180"}, "--fov: '180' is not a number from 0.01 to 179"},
+        {{"--light", "0,0,0"}, "--light: '0,0,0' has no direction"},
+        {{"--orbit", "1,2,0"}, "--orbit: '1,2,0' has a ZOOM of 0 or less"},
+        {{"--crop", "0,0,0,5"}, "--crop: '0,0,0,5' is empty"},
+        {{"--crop", "0,0,10,10", "--size", "9x20"}, "--crop: 0,0,10,10 reaches outside the image of 9x20"},
+        {{"--camera", "a", "--orbit", "1,2"}, "--camera and --orbit exclude each other"},
+        {{"--orbit", "1,2", "--eye", "1,2,3"}, "--orbit and --eye exclude each other"},
+    };
+    for (const auto& [words, message] : cases) EXPECT_EQ(error_of(words), message);
+}
+
+TEST(RenderOptions, WhatLaterVersionsMayKnowIsUnknownNow) {
+    for (const std::string option : {"--aniso", "--ewa", "--estimator", "--noise", "--adaptive", "--frames", "--cache", "--skip"})
+        EXPECT_TRUE(error_of({option, "1"}).starts_with("unknown option '" + option + "', the nearest is '--")) << error_of({option, "1"});
+    for (const std::string filter : {"mitchell", "gaussian:0.5", "lanczos3"})
+        EXPECT_TRUE(error_of({"--filter", filter}).starts_with("--filter: unknown value '" + filter + "'"));
+}
+
+TEST(RenderOptions, PeerShadingPresetsWhatNoOptionSays) {
+    const RenderRequest preset = request_of({"--peer-shading"});
+    EXPECT_EQ(preset.light.ambient, 0.1f);
+    EXPECT_EQ(preset.light.shadows, false);
+    EXPECT_EQ(preset.light.environment->kind, EnvironmentKind::None);
+    EXPECT_EQ(preset.tone.tone_map, shading::ToneMap::None);
+    const RenderRequest mixed = request_of({"--ambient", "0.3", "--peer-shading", "--shadows", "on", "--tonemap", "aces", "--environment", "sky"});
+    EXPECT_EQ(mixed.light.ambient, 0.3f);
+    EXPECT_EQ(mixed.light.shadows, true);
+    EXPECT_EQ(mixed.light.environment->kind, EnvironmentKind::Sky);
+    EXPECT_EQ(mixed.tone.tone_map, shading::ToneMap::Aces);
+}
+
+}  // namespace
+}  // namespace rawtexel::cli

@@ -1,0 +1,46 @@
+#include "cli/spelling.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace rawtexel::cli {
+namespace {
+
+const std::vector<std::string> kWords{"nearest", "bilinear", "scene", "--size", "--spp", "--seed", "--camera", "--count", "--crop"};
+
+TEST(Spelling, ACorrectWordIsItsOwnNearest) {
+    for (const std::string& word : kWords) EXPECT_EQ(nearest_spelling(word, kWords), word);
+}
+
+TEST(Spelling, EverySingleEditOfALongWordLeadsBack) {
+    const std::string word = "bilinear";
+    for (size_t i = 0; i < word.size(); ++i) {
+        std::string removed = word, doubled = word, replaced = word, swapped = word;
+        removed.erase(i, 1);
+        doubled.insert(i, 1, word[i]);
+        replaced[i] = '?';
+        if (i + 1 < word.size()) std::swap(swapped[i], swapped[i + 1]);
+        for (const std::string& typo : {removed, doubled, replaced, swapped}) EXPECT_EQ(nearest_spelling(typo, kWords), word) << typo;
+    }
+}
+
+TEST(Spelling, ASwapOfNeighboursIsOneEdit) {
+    // One swap from "ab", two substitutions from "bb" would be the same distance if a swap cost two.
+    EXPECT_EQ(nearest_spelling("ba", std::vector<std::string>{"xy", "ab"}), "ab");
+    EXPECT_EQ(nearest_spelling("baaa", std::vector<std::string>{"bccc", "abaa"}), "abaa");
+}
+
+TEST(Spelling, CaseIsIgnored) { EXPECT_EQ(nearest_spelling("BILINEAR", kWords), "bilinear"); }
+
+TEST(Spelling, AnAbbreviationMeansTheWordItBegins) {
+    EXPECT_EQ(nearest_spelling("--cam", kWords), "--camera");
+    EXPECT_EQ(nearest_spelling("near", kWords), "nearest");
+}
+
+TEST(Spelling, TheFirstOfEqualsWins) { EXPECT_EQ(nearest_spelling("a", std::vector<std::string>{"b", "c"}), "b"); }
+
+TEST(Spelling, WithoutCandidatesThereIsNone) { EXPECT_EQ(nearest_spelling("a", {}), ""); }
+
+}  // namespace
+}  // namespace rawtexel::cli

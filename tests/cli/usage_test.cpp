@@ -1,0 +1,126 @@
+// What the program says of itself, and of words it does not know.
+#include "cli/stats.h"
+#include "cli/version.h"
+#include "scenes/builtin.h"
+#include "tests/cli/program_runner.h"
+#include "texunit/format.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace rawtexel::cli {
+namespace {
+
+using test::run;
+using test::run_built;
+using test::why_not_failed;
+
+TEST(Usage, WrongWordsAreExitCode2WithTheNearestSpelling) {
+    const std::initializer_list<std::pair<std::vector<std::string>, const char*>> cases{
+        {{"rendr", "plane", "-o", "x.png"}, "the nearest is 'render'"},
+        {{"profile", "plane"}, "unknown command 'profile', the nearest is '"},
+        {{"render", "plane", "-o", "x.png", "--fliter", "nearest"}, "the nearest is '--filter'"},
+        {{"render", "plane", "-o", "x.png", "--filter", "bilinaer"}, "the nearest is 'bilinear'"},
+        {{"render", "plane", "-o", "x.png", "--aov", "dept"}, "the nearest is 'depth'"},
+        {{"render", "plane", "-o", "x.png", "--aov", "depth"}, "'.exr'"},
+        {{"render", "plane", "-o", "x.exr", "--aov", "depth,depth"}, "named twice"},
+        {{"render", "plane", "-o", "x.pmg"}, "'.png'"},
+        {{"render", "plane", "-o", "x"}, "'.png'"},
+        {{"render", "plane"}, "-o FILE is missing"},
+        {{"render", "-o", "x.png"}, "missing argument SCENE"},
+        {{"render", "plane", "spheres", "-o", "x.png"}, "unexpected argument 'spheres'"},
+        {{"render", "plane", "-o", "x.png", "--repeat", "0"}, "--repeat"},
+        {{"render", "--scenario", "{}"}, "--scenario"},
+        {{"render", "plane", "--scenario", R"({"scenario":{"model":"a"}})"}, "--scenario"},
+        {{"compare", "a.png"}, "missing argument"},
+        {{"compare", "a.png", "b.png", "--max-rms", "1"}, "'--max-rmse'"},
+        {{"compare", "a.png", "b.png", "--max-rmse", "-1"}, "--max-rmse"},
+        {{"compare", "a.png", "b.png", "-o", "d.xyz"}, "-o"},
+        {{"list"}, "missing argument"},
+        {{"list", "scene"}, "the nearest is 'scenes'"},
+        {{"list", "noises"}, "unknown value 'noises'"},
+        {{"export", "plane", "-o", "x.gltf"}, ".glb"},
+        {{"export", "plane"}, "-o FILE.glb is missing"},
+        {{}, "no command given"},
+        {{"--verison"}, "'--version'"},
+        {{"--size", "1x1"}, "unknown command '1x1'"},
+        {{"render", "a\nb", "-o", "x.p\nng"}, "-o"},
+    };
+    for (const auto& [words, part] : cases) EXPECT_EQ(why_not_failed(run(words), kWrongUsage, part), "");
+}
+
+TEST(Usage, TheShellSeesTheSame) {
+    EXPECT_EQ(why_not_failed(run_built({"render", "plane", "-o", "x.png", "--fliter", "nearest"}), 2, "'--filter'"), "");
+    EXPECT_EQ(why_not_failed(run_built({"render", "plane", "-o", "/proc/nowhere/x.png"}), 4, "/proc/nowhere/x.png"), "");
+    EXPECT_EQ(why_not_failed(run_built({"render", "no-such-scene.glb", "-o", "/tmp/rawtexel-never-written.png"}), 3, "no-such-scene.glb"), "");
+    const test::Outcome version = run_built({"--version"});
+    EXPECT_EQ(version.code, 0);
+    EXPECT_EQ(version.out, "rawtexel " + std::string(cli::version()) + "\n");
+    EXPECT_EQ(version.err, "");
+}
+
+TEST(Usage, AFullStandardOutputIsExitCode4) {
+    const int status = std::system((std::string(RAWTEXEL_PROGRAM) + " list scenes > /dev/full 2> /dev/null").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 4);
+}
+
+TEST(Usage, HelpIsComplete) {
+    const test::Outcome whole = run({"--help"});
+    EXPECT_EQ(whole.code, 0);
+    for (const char* part : {"render", "compare", "list", "export", "--version", "Exit codes"}) EXPECT_NE(whole.out.find(part), std::string::npos) << part;
+    const std::initializer_list<std::pair<const char*, std::vector<const char*>>> commands{
+        {"render", {"--size", "--crop", "--camera", "--orbit", "--eye", "--target", "--fov", "--light", "--ambient", "--shadows", "--environment",
+                    "--background", "--peer-shading", "--filter", "--mip", "--spp", "--pixel-filter", "--pixel-jitter", "--seed", "--mip-storage",
+                    "--exposure", "--tonemap", "--transfer", "--aov", "--count", "--stats", "--repeat", "--threads", "--tile-size", "--simd",
+                    "--progress", "--scenario", "-o,--output", "SCENE", "--help"}},
+        {"compare", {"-o,--output", "--json", "--csv", "--max-rmse", "--min-psnr", "IMAGE", "REFERENCE"}},
+        {"list", {"scenes", "filters", "formats", "counters", "--json"}},
+        {"export", {"SCENE", "-o,--output"}}};
+    for (const auto& [command, parts] : commands)
+        for (const std::vector<std::string>& words : {std::vector<std::string>{command, "--help"}, {command, "-h"}, {"--help", command}}) {
+            const test::Outcome outcome = run(words);
+            EXPECT_EQ(outcome.code, 0);
+            for (const char* part : parts) EXPECT_NE(outcome.out.find(part), std::string::npos) << command << " " << part;
+        }
+}
+
+TEST(Usage, TheCommandMayComeLast) {
+    const test::Outcome outcome = run({"--json", "scenes", "list"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    // "list" is here the value of an option, "compare" the command.
+    EXPECT_EQ(why_not_failed(run({"--csv", "list", "compare", "a.png"}), kWrongUsage, "missing argument IMAGE"), "");
+}
+
+TEST(List, NamesEverythingOneALine) {
+    const std::initializer_list<std::pair<const char*, size_t>> subjects{{"scenes", scenes::builtin_scenes().size()},
+                                                                          {"filters", 3},
+                                                                          {"formats", texunit::all_formats().size()},
+                                                                          {"counters", all_counters().size()}};
+    for (const auto& [subject, count] : subjects) {
+        const test::Outcome lines = run({"list", subject}), json = run({"list", subject, "--json"});
+        EXPECT_EQ(lines.code, 0);
+        EXPECT_EQ(size_t(std::ranges::count(lines.out, '\n')), count) << subject;
+        const nlohmann::json array = nlohmann::json::parse(json.out);
+        ASSERT_EQ(array.size(), count) << subject;
+        for (const auto& entry : array) {
+            EXPECT_FALSE(entry.at("name").get<std::string>().empty());
+            EXPECT_FALSE(entry.at("description").get<std::string>().empty());
+            EXPECT_NE(lines.out.find(entry.at("name").get<std::string>()), std::string::npos);
+        }
+    }
+}
+
+TEST(List, HoldsTheScenesOfTheGallery) {
+    const std::string out = run({"list", "scenes"}).out;
+    for (const char* scene : {"plane", "spheres", "magnify", "metal-edge", "bumps", "foliage", "courtyard"})
+        EXPECT_NE(out.find(scene), std::string::npos) << scene;
+}
+
+}  // namespace
+}  // namespace rawtexel::cli
