@@ -97,6 +97,7 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
         .lighting = &lighting,
         .rays = make_view_rays(options.camera, options.width, options.height),
         .visible = visible,
+        .first_sample = options.first_sample,
         .spp = options.spp,
         .pixel_filter = options.pixel_filter,
         .pixel_jitter = options.pixel_jitter,

@@ -27,6 +27,8 @@ struct RenderOptions {
     Crop crop;
     Camera camera;
     int spp = 1;
+    /// The first of the `spp` samples: parts of one image may be rendered apart, and SampleTree adds them to the bits of the whole.
+    uint32_t first_sample = 0;
     PixelFilter pixel_filter = PixelFilter::Box;
     PixelJitter pixel_jitter = PixelJitter::Frame;
     uint32_t seed = 0;

@@ -43,12 +43,14 @@ class TileRenderer {
         using Clock = std::chrono::steady_clock;
         find_sequence_shifts();
         scratch_.sums.clear();
-        for (uint32_t sample = 0; sample < uint32_t(inputs_.spp); ++sample) {
+        for (uint32_t k = 0; k < uint32_t(inputs_.spp); ++k) {
+            const uint32_t sample = inputs_.first_sample + k;
             const auto start = Clock::now();
             find_offsets(sample);
             find_visible(sample);
             const auto drawn = Clock::now();
-            shade_sample(sample);
+            first_sample_ = k == 0;
+            shade_sample();
             scratch_.sums.add(sample, {scratch_.sample.data()->lane, scratch_.sample.size() * texunit::kWaveLanes});
             scratch_.totals.raster_s += std::chrono::duration<double>(drawn - start).count();
             scratch_.totals.shade_s += std::chrono::duration<double>(Clock::now() - drawn).count();
@@ -95,7 +97,7 @@ class TileRenderer {
     /// Index of the wave whose upper left pixel is (x, y) of the tile.
     size_t wave_at(int x, int y) const { return size_t(y / texunit::kWaveHeight * waves_x_ + x / texunit::kWaveWidth); }
 
-    void shade_sample(uint32_t sample) {
+    void shade_sample() {
         for (int y = 0; y < tile_size_; y += texunit::kWaveHeight) {
             for (int x = 0; x < tile_size_; x += texunit::kWaveWidth) {
                 wave_.x = tile_x_ * tile_size_ + x;
@@ -103,7 +105,6 @@ class TileRenderer {
                 wave_.index = wave_at(x, y);
                 wave_.inside = lanes_inside(inputs_.visible, wave_.x, wave_.y);
                 if (wave_.inside == 0) continue;
-                first_sample_ = sample == 0;
                 shade_wave(x, y);
             }
         }

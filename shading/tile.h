@@ -25,6 +25,7 @@ struct TileInputs {
     const Lighting* lighting = nullptr;
     ViewRays rays;
     PixelRect visible;                          ///< nothing outside is shaded, tested for coverage or counted
+    uint32_t first_sample = 0;
     int spp = 1;
     PixelFilter pixel_filter = PixelFilter::Box;
     PixelJitter pixel_jitter = PixelJitter::Frame;
@@ -53,7 +54,7 @@ struct TileScratch {
     std::vector<raster::SampleOffset> offsets;       ///< likewise, of the sample at hand
     /// Planes of the sample at hand: wave w of the tile (row by row) of plane p is entry p*waves + w.
     std::vector<texunit::WaveFloat> sample;
-    std::vector<texunit::WaveFloat> first_sample;    ///< planes that show sample 0 alone
+    std::vector<texunit::WaveFloat> first_sample;    ///< planes that show the first sample alone
     std::vector<texunit::Wave<uint32_t>> texels;     ///< texels requested in the sample at hand, per wave
     SampleTree sums;
     TileTotals totals;

@@ -20,7 +20,7 @@ struct TilePlanes {
     int uv = -1;                          ///< two planes
     int texels = -1;
 
-    int first_sample_count = 0;           ///< of the planes that show sample 0
+    int first_sample_count = 0;           ///< of the planes that show the first sample
     int lod = -1, material = -1;
 };
 
