@@ -36,11 +36,9 @@ Halves decode(const Block16& block, bool is_signed) {
 
 void expect_equal(const Bc6hBlockFields& fields, const Block16& block, bool is_signed) {
     const Halves texels = decode(block, is_signed);
+    const auto colours = reference::evaluate_bc6h(fields, is_signed);
     Halves expected;
-    for (int texel = 0; texel < 16; ++texel) {
-        const std::array<uint16_t, 3> rgb = reference::evaluate_bc6h(fields, is_signed, texel);
-        expected[size_t(texel)] = {rgb[0], rgb[1], rgb[2], kHalfOne};
-    }
+    for (size_t texel = 0; texel < 16; ++texel) expected[texel] = {colours[texel][0], colours[texel][1], colours[texel][2], kHalfOne};
     if (texels == expected) return;
     for (size_t texel = 0; texel < 16; ++texel) {
         ASSERT_EQ(texels[texel], expected[texel]) << (is_signed ? "signed" : "unsigned") << " mode " << fields.mode << " partition "

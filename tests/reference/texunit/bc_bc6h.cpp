@@ -212,18 +212,23 @@ Bc6hBlockFields take_apart_bc6h(const Block16& block) {
     return f;
 }
 
-std::array<uint16_t, 3> evaluate_bc6h(const Bc6hBlockFields& f, bool is_signed, int texel) {
-    if (f.mode < 0) return {0, 0, 0};
+std::array<std::array<uint16_t, 3>, 16> evaluate_bc6h(const Bc6hBlockFields& f, bool is_signed) {
+    std::array<std::array<uint16_t, 3>, 16> texels{};
+    if (f.mode < 0) return texels;
     const Bc6hModeWidths& m = kModes[f.mode].widths;
-    const int subset = m.subsets == 2 ? kPartitions2[f.partition][size_t(texel)] - '0' : 0;
-    const int w = weight(f.index[texel], index_bits(m));
-    std::array<uint16_t, 3> rgb;
-    for (int channel = 0; channel < 3; ++channel) {
-        const int first = unquantized(resolved(f, is_signed, 2 * subset, channel), m.endpoint_bits, is_signed);
-        const int second = unquantized(resolved(f, is_signed, 2 * subset + 1, channel), m.endpoint_bits, is_signed);
-        rgb[size_t(channel)] = finished(floor_divide((64 - w) * first + w * second + 32, 64), is_signed);
+    int endpoint[4][3];
+    for (int e = 0; e < 2 * m.subsets; ++e) {
+        for (int c = 0; c < 3; ++c) endpoint[e][c] = unquantized(resolved(f, is_signed, e, c), m.endpoint_bits, is_signed);
     }
-    return rgb;
+    for (int texel = 0; texel < 16; ++texel) {
+        const int subset = m.subsets == 2 ? kPartitions2[f.partition][size_t(texel)] - '0' : 0;
+        const int w = weight(f.index[texel], index_bits(m));
+        for (int c = 0; c < 3; ++c) {
+            const int sum = (64 - w) * endpoint[2 * subset][c] + w * endpoint[2 * subset + 1][c] + 32;
+            texels[size_t(texel)][size_t(c)] = finished(floor_divide(sum, 64), is_signed);
+        }
+    }
+    return texels;
 }
 
 }  // namespace rawtexel::reference

@@ -1,4 +1,4 @@
-// BC6H by the letter of ARB_texture_compression_bptc: a block put together from its fields, taken apart and evaluated texel by texel.
+// BC6H by the letter of ARB_texture_compression_bptc: a block put together from its fields, taken apart and evaluated.
 // Shares no code and no table with the library; its field places are those of D3D's table, which lists them bit by bit.
 #pragma once
 
@@ -31,7 +31,7 @@ bool bc6h_is_anchor(const Bc6hBlockFields& fields, int texel);
 Block16 build_bc6h(const Bc6hBlockFields& fields);
 Bc6hBlockFields take_apart_bc6h(const Block16& block);
 
-/// Bits of the halves of red, green and blue of texel `texel`. A negative value that becomes zero is +0 (D3D11.3 19.5.14).
-std::array<uint16_t, 3> evaluate_bc6h(const Bc6hBlockFields& fields, bool is_signed, int texel);
+/// Bits of the halves of red, green and blue of the sixteen texels. A negative value that becomes zero is +0 (D3D11.3 19.5.14).
+std::array<std::array<uint16_t, 3>, 16> evaluate_bc6h(const Bc6hBlockFields& fields, bool is_signed);
 
 }  // namespace rawtexel::reference

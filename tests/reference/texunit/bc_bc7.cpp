@@ -88,19 +88,29 @@ Bc7Fields take_apart_bc7(const Block16& block) {
     return fields;
 }
 
-std::array<int, 4> evaluate_bc7(const Bc7Fields& f, int texel) {
-    if (f.mode == 8) return {0, 0, 0, 0};
+std::array<std::array<uint8_t, 4>, 16> evaluate_bc7(const Bc7Fields& f) {
+    std::array<std::array<uint8_t, 4>, 16> texels{};
+    if (f.mode == 8) return texels;
     const Bc7Mode& m = kModes[f.mode];
-    const int subset = subset_of(f, texel);
-    std::array<int, 4> rgba;
-    for (int channel = 0; channel < 4; ++channel) {
-        // Colour takes the first indices and alpha the second; the selection bit exchanges them; without second indices both take the first.
-        const bool second = m.ib2 != 0 && (channel == 3) != (f.selection == 1);
-        const int w = weight(second ? f.second_index[texel] : f.index[texel], second ? m.ib2 : m.ib);
-        rgba[size_t(channel)] = ((64 - w) * widen(f, subset, 0, channel) + w * widen(f, subset, 1, channel) + 32) / 64;
+    int endpoint[3][2][4];
+    for (int subset = 0; subset < m.ns; ++subset) {
+        for (int end = 0; end < 2; ++end) {
+            for (int c = 0; c < 4; ++c) endpoint[subset][end][c] = widen(f, subset, end, c);
+        }
     }
-    if (f.rotation != 0) std::swap(rgba[3], rgba[size_t(f.rotation - 1)]);
-    return rgba;
+    for (int texel = 0; texel < 16; ++texel) {
+        const auto& [first, second] = endpoint[subset_of(f, texel)];
+        std::array<uint8_t, 4>& rgba = texels[size_t(texel)];
+        for (int c = 0; c < 4; ++c) {
+            // Colour takes the first indices and alpha the second; the selection bit exchanges them; without second indices both take the
+            // first.
+            const bool second_index = m.ib2 != 0 && (c == 3) != (f.selection == 1);
+            const int w = weight(second_index ? f.second_index[texel] : f.index[texel], second_index ? m.ib2 : m.ib);
+            rgba[size_t(c)] = uint8_t(((64 - w) * first[c] + w * second[c] + 32) / 64);
+        }
+        if (f.rotation != 0) std::swap(rgba[3], rgba[size_t(f.rotation - 1)]);
+    }
+    return texels;
 }
 
 }  // namespace rawtexel::reference

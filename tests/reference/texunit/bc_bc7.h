@@ -1,5 +1,5 @@
-// BC7 by the letter of ARB_texture_compression_bptc: a block taken apart into its fields, put together from them, and evaluated texel by
-// texel. Shares no code and no table with the library.
+// BC7 by the letter of ARB_texture_compression_bptc: a block taken apart into its fields, put together from them, and evaluated.
+// Shares no code and no table with the library.
 #pragma once
 
 #include "tests/reference/texunit/bc_block_bits.h"
@@ -30,7 +30,7 @@ bool bc7_is_anchor(const Bc7Fields& fields, int texel);
 Block16 build_bc7(const Bc7Fields& fields);
 Bc7Fields take_apart_bc7(const Block16& block);
 
-/// Red, green, blue, alpha of texel `texel`.
-std::array<int, 4> evaluate_bc7(const Bc7Fields& fields, int texel);
+/// Red, green, blue, alpha of the sixteen texels.
+std::array<std::array<uint8_t, 4>, 16> evaluate_bc7(const Bc7Fields& fields);
 
 }  // namespace rawtexel::reference
