@@ -14,12 +14,6 @@
 namespace rawtexel::texunit {
 namespace {
 
-/// The pyramid of `held` continued down to one texel.
-Shape full_pyramid(Shape held) {
-    held.levels = full_level_count(held.width, held.height, held.depth);
-    return held;
-}
-
 void check_extents(const std::string& name, const Shape& shape) {
     for (const auto& [axis, extent] : {std::pair{"width", shape.width}, {"height", shape.height}, {"depth", shape.depth}}) {
         if (extent >= 1 && extent <= kMaxExtent) continue;
@@ -28,14 +22,18 @@ void check_extents(const std::string& name, const Shape& shape) {
     if (shape.layers < 1) throw TextureError(name + ": " + std::to_string(shape.layers) + " layers (at least 1 is allowed)");
 }
 
+/// The pyramid that a source begins, continued down to one texel.
+Shape full_pyramid(const std::string& name, Shape held) {
+    check_extents(name, held);
+    held.levels = full_level_count(held.width, held.height, held.depth);
+    return held;
+}
+
 LevelTable lay_out(const std::string& name, const Shape& shape, StorageClass storage) {
-    check_extents(name, shape);
     LevelTable table;
-    if (!lay_out_levels(shape, storage, table)) {
-        throw TextureError(name + ": " + std::to_string(shape.width) + "x" + std::to_string(shape.height) + "x" + std::to_string(shape.depth) +
-                           " texels in " + std::to_string(shape.layers) + " layers (more than 8 GiB decoded)");
-    }
-    return table;
+    if (lay_out_levels(shape, storage, table)) return table;
+    throw TextureError(name + ": " + std::to_string(shape.width) + "x" + std::to_string(shape.height) + "x" + std::to_string(shape.depth) +
+                       " texels in " + std::to_string(shape.layers) + " layers (8 GiB decoded are the limit)");
 }
 
 uint64_t blocks_along(int extent) { return (uint64_t(extent) + 3) / 4; }
@@ -50,8 +48,8 @@ struct Texture::Maker {
     TexelEncoder encoder;
     Shape shape;
     int source_levels;
-    ReservedMemory memory;
     LevelTable levels;
+    ReservedMemory memory;
     std::array<std::atomic<uint64_t>, kMaxLevels> blocks_left;   // per level
     std::atomic<uint64_t> decoded{0}, averaged{0};
 
@@ -61,10 +59,10 @@ struct Texture::Maker {
           source_layout(texunit::layout(source->format())),
           layout(stored),
           encoder(stored),
-          shape(full_pyramid(source->shape())),
+          shape(full_pyramid(name, source->shape())),
           source_levels(std::min(source->shape().levels, shape.levels)),
-          memory(lay_out(name, shape, stored.storage).texels * uint64_t(texel_bytes())) {
-        levels = lay_out(name, shape, stored.storage);
+          levels(lay_out(name, shape, stored.storage)),
+          memory(levels.texels * uint64_t(texel_bytes())) {
         for (int level = 0; level < shape.levels; ++level) blocks_left[size_t(level)] = blocks_in(level);
     }
 
