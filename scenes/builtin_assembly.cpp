@@ -1,5 +1,7 @@
 #include "scenes/builtin_assembly.h"
 
+#include "scenes/shapes.h"
+
 #include "shading/environment.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -8,6 +10,22 @@
 #include <utility>
 
 namespace rawtexel::scenes {
+namespace {
+
+/// A rigid frame with the z axis and, as nearly as that allows, the y axis of `frame`, such that making it rigid once more in double
+/// precision gives the same bits.
+glm::mat4 settled_frame(glm::mat4 frame) {
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 back(frame[2]), up(frame[1]);
+        const glm::dvec3 z = back / glm::length(back), across = glm::cross(up, z), x = across / glm::length(across);
+        const glm::mat4 next(glm::dmat4(glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), glm::dvec4(frame[3])));
+        if (next == frame) break;
+        frame = next;
+    }
+    return frame;
+}
+
+}  // namespace
 
 SceneAssembly::SceneAssembly(std::string name, texunit::TextureOptions options) : options_(options) { scene_.name = std::move(name); }
 
@@ -61,6 +79,7 @@ uint32_t SceneAssembly::add_mesh(std::string name, uint32_t material, shading::M
     if (scene_.materials[material].maps[shading::kNormal].texture < 0) {
         mesh.tangents.clear();
     }
+    drop_unused_points(mesh);
     scene_.meshes.push_back(std::move(mesh));
     return uint32_t(scene_.meshes.size() - 1);
 }
@@ -76,13 +95,13 @@ void SceneAssembly::turn_to_sun(float azimuth) {
 }
 
 void SceneAssembly::add_camera(shading::Camera camera) {
-    camera.world_from_camera = world_from_design_ * camera.world_from_camera;
+    camera.world_from_camera = settled_frame(world_from_design_ * camera.world_from_camera);
     scene_.cameras.push_back(std::move(camera));
 }
 
 void SceneAssembly::add_light(shading::Light light) {
     light.position = glm::vec3(world_from_design_ * glm::vec4(light.position, 1.0f));
-    light.direction = glm::vec3(world_from_design_ * glm::vec4(light.direction, 0.0f));
+    light.direction = settled_unit(glm::vec3(world_from_design_ * glm::vec4(light.direction, 0.0f)));
     scene_.lights.push_back(std::move(light));
 }
 
@@ -101,7 +120,7 @@ void SceneAssembly::add_sky_and_sun() {
     light.name = "sun";
     light.color = sun.color;
     light.intensity = sun.intensity;
-    light.direction = sun.direction;  // the world's, however the scene is turned
+    light.direction = settled_unit(sun.direction);  // the world's, however the scene is turned
     scene_.lights.push_back(std::move(light));
     set_environment(shading::EnvironmentRequest::Sky);
 }

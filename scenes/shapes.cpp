@@ -13,17 +13,14 @@ namespace {
 
 constexpr float kTau = 2.0f * glm::pi<float>();
 
-/// A unit vector whose length stays 1 to the last bit or two when it is normalised again.
-glm::vec3 unit(glm::vec3 v) { return glm::vec3(glm::normalize(glm::dvec3(v))); }
-
 /// The part of `v` that lies in the plane across `normal`.
 glm::vec3 tangent_direction(glm::vec3 normal, glm::vec3 v) {
     const glm::vec3 flat = v - normal * glm::dot(normal, v);
     if (glm::dot(flat, flat) > 1e-12f) {
-        return unit(flat);
+        return settled_unit(flat);
     }
     const glm::vec3 other = std::abs(normal.x) < 0.5f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
-    return unit(other - normal * glm::dot(normal, other));
+    return settled_unit(other - normal * glm::dot(normal, other));
 }
 
 void append_triangle(shading::Mesh& mesh, uint32_t a, uint32_t b, uint32_t c) {
@@ -51,8 +48,26 @@ glm::vec2 corner_normal(const std::vector<glm::vec2>& normals, size_t i, size_t 
 
 }  // namespace
 
+glm::vec3 settled_unit(glm::vec3 v) {
+    for (int i = 0;; ++i) {
+        const glm::dvec3 exact(v);
+        const double length = glm::length(exact);
+        const glm::vec3 next(exact / length);
+        if (next == v) return v;
+        if (i < 2) {
+            v = next;
+            continue;
+        }
+        // Rounding left the length so far from 1 that the small components move again: a bit of the middle one brings it near enough.
+        const glm::vec3 size = glm::abs(v);
+        const float middle = std::max(std::min(size.x, size.y), std::min(std::max(size.x, size.y), size.z));
+        float& component = v[size.x == middle ? 0 : size.y == middle ? 1 : 2];
+        component = std::nextafter(component, length > 1.0 ? 0.0f : 2.0f * component);
+    }
+}
+
 uint32_t append_point(shading::Mesh& mesh, const ShapePoint& point) {
-    const glm::vec3 normal = unit(point.normal);
+    const glm::vec3 normal = settled_unit(point.normal);
     mesh.positions.push_back(point.position);
     mesh.normals.push_back(normal);
     mesh.tangents.emplace_back(tangent_direction(normal, point.along_u), point.mirrored ? -1.0f : 1.0f);
@@ -188,7 +203,7 @@ void append_mesh(shading::Mesh& mesh, const shading::Mesh& part, const glm::mat4
     const glm::mat3 normal_transform = glm::transpose(glm::inverse(linear));
     const bool mirrors = glm::determinant(linear) < 0.0f;
     for (size_t i = 0; i < part.positions.size(); ++i) {
-        const glm::vec3 normal = unit(normal_transform * part.normals[i]);
+        const glm::vec3 normal = settled_unit(normal_transform * part.normals[i]);
         const glm::vec4 tangent = part.tangents[i];
         mesh.positions.emplace_back(transform * glm::vec4(part.positions[i], 1.0f));
         mesh.normals.push_back(normal);
@@ -200,6 +215,26 @@ void append_mesh(shading::Mesh& mesh, const shading::Mesh& part, const glm::mat4
         const uint32_t a = first + part.indices[i], b = first + part.indices[i + 1], c = first + part.indices[i + 2];
         mesh.indices.insert(mesh.indices.end(), {a, mirrors ? c : b, mirrors ? b : c});
     }
+}
+
+void drop_unused_points(shading::Mesh& mesh) {
+    constexpr uint32_t kUnused = UINT32_MAX;
+    std::vector<uint32_t> number(mesh.positions.size(), kUnused);
+    for (const uint32_t index : mesh.indices) number[index] = 0;
+    uint32_t used = 0;
+    for (uint32_t& n : number) n = n == kUnused ? kUnused : used++;
+    const auto compact = [&](auto& attribute) {
+        if (attribute.empty()) return;
+        for (size_t i = 0; i < number.size(); ++i)
+            if (number[i] != kUnused) attribute[number[i]] = attribute[i];
+        attribute.resize(used);
+    };
+    compact(mesh.positions);
+    compact(mesh.normals);
+    compact(mesh.tangents);
+    for (auto& uv : mesh.uv) compact(uv);
+    compact(mesh.colors);
+    for (uint32_t& index : mesh.indices) index = number[index];
 }
 
 void tint(shading::Mesh& mesh, const std::function<glm::vec3(glm::vec3 position, glm::vec3 normal)>& color) {

@@ -19,6 +19,9 @@ struct ShapePoint {
     bool mirrored = false;  ///< true where the texture reads mirrored
 };
 
+/// `v` made unit, such that normalising it once more in double precision gives the same bits: it survives a file.
+glm::vec3 settled_unit(glm::vec3 v);
+
 /// Appends a point to every attribute array of `mesh` (uv set 0) and returns its index.
 uint32_t append_point(shading::Mesh& mesh, const ShapePoint& point);
 
@@ -49,6 +52,9 @@ void append_torus(shading::Mesh& mesh, float major_radius, float minor_radius, i
 
 /// Appends `part`, moved by `transform` (rotation, translation and scale; may mirror).
 void append_mesh(shading::Mesh& mesh, const shading::Mesh& part, const glm::mat4& transform);
+
+/// Removes points that no triangle uses, from every attribute array.
+void drop_unused_points(shading::Mesh& mesh);
 
 /// Sets the vertex colour of every point that has none yet.
 void tint(shading::Mesh& mesh, const std::function<glm::vec3(glm::vec3 position, glm::vec3 normal)>& color);
