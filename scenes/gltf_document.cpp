@@ -28,16 +28,28 @@ bool is_known(const std::string& extension) {
     return std::ranges::find(kKnownExtensions, extension) != kKnownExtensions.end();
 }
 
-/// Nesting that no glTF needs; the parser and everything after it recurses this deep at most.
+/// Nesting that no glTF needs; the parsers and everything after them recurse this deep at most.
 constexpr int kMaxNesting = 128;
 
+/// The deepest nesting of brackets outside strings; of valid JSON that is the nesting of its values.
+int nesting(std::string_view text) {
+    int depth = 0, deepest = 0;
+    bool in_string = false;
+    for (size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (in_string && c == '\\') ++i;   // the next character is escaped
+        if (c == '"') in_string = !in_string;
+        if (in_string) continue;
+        if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+        if (c == ']' || c == '}') --depth;
+    }
+    return deepest;
+}
+
 json parse_json(const std::string& path, std::string_view text) {
-    const auto limit_nesting = [&](int depth, json::parse_event_t, json&) {
-        if (depth > kMaxNesting) throw InputError(path + ": JSON nested deeper than " + std::to_string(kMaxNesting) + " levels");
-        return true;
-    };
+    if (nesting(text) > kMaxNesting) throw InputError(path + ": JSON nested deeper than " + std::to_string(kMaxNesting) + " levels");
     try {
-        return json::parse(text.begin(), text.end(), limit_nesting);
+        return json::parse(text.begin(), text.end());
     } catch (const json::exception& error) {
         throw InputError(path + ": not valid JSON (" + one_line(error.what()) + ")");
     }

@@ -13,8 +13,9 @@ namespace {
 
 using shading::Mesh;
 
-bool is_unit(const glm::vec3& v) {
-    return std::abs(glm::dot(v, v) - 1.0f) < 1e-3f;
+/// False where no triangle said anything, and where the triangles' tangents stood on the vertex's plane: what projection left of them is noise.
+bool is_usable(const glm::vec3& tangent, const glm::vec3& normal) {
+    return std::abs(glm::dot(tangent, tangent) - 1.0f) < 1e-3f && std::abs(glm::dot(tangent, normal)) < 1e-2f;
 }
 
 uint32_t copy_vertex(Mesh& mesh, uint32_t vertex) {
@@ -73,7 +74,8 @@ void generate_tangents(Mesh& mesh, int uv_set, const glm::mat3x2& uv_from_vertex
     for (size_t i = 0; i < corners.size(); ++i) {
         // MikkTSpace has v up, glTF down: the bitangent turns round.
         corners[i].w = corners[i].w == 0.0f ? 1.0f : -corners[i].w;
-        if (!is_unit(glm::vec3(corners[i]))) corners[i] = glm::vec4(perpendicular_to(mesh.normals[mesh.indices[i]]), corners[i].w);
+        const glm::vec3& normal = mesh.normals[mesh.indices[i]];
+        if (!is_usable(glm::vec3(corners[i]), normal)) corners[i] = glm::vec4(perpendicular_to(normal), corners[i].w);
     }
     assign_corners(mesh, corners);
 }
