@@ -51,7 +51,8 @@ template <int mode>
 inline Endpoints read_endpoints(const BlockBits& bits) {
     constexpr size_t count = size_t(parse_bc6h_fields(kBc6hModes[mode].bits).count);
     Endpoints out;
-    [&]<size_t... i>(std::index_sequence<i...>) { (read_field<mode, i>(bits, out), ...); }(std::make_index_sequence<count>{});
+    [&]<size_t... i>(std::index_sequence<i...>) { (read_field<mode, i>(bits, out), ...); }
+    (std::make_index_sequence<count>{});
     return out;
 }
 
@@ -153,9 +154,8 @@ constexpr std::array<Decoder, 32> decoders_by_code() {
             if (code < 2 ? (five_bits & 3) == code : five_bits == code) decoders[size_t(five_bits)] = decode<mode, is_signed>;
         }
     };
-    [&]<int... mode>(std::integer_sequence<int, mode...>) {
-        (enter.template operator()<mode>(), ...);
-    }(std::make_integer_sequence<int, int(kBc6hModes.size())>{});
+    [&]<int... mode>(std::integer_sequence<int, mode...>) { (enter.template operator()<mode>(), ...); }
+    (std::make_integer_sequence<int, int(kBc6hModes.size())>{});
     return decoders;
 }
 

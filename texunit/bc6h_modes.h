@@ -7,9 +7,9 @@
 namespace rawtexel::texunit {
 
 struct Bc6hMode {
-    int code;               ///< 2 bits for the codes 0 and 1, else 5 bits
-    bool transformed;       ///< endpoints other than the first are differences from it
-    int subsets;            ///< 2 with a 5-bit partition, or 1
+    int code;          ///< 2 bits for the codes 0 and 1, else 5 bits
+    bool transformed;  ///< endpoints other than the first are differences from it
+    int subsets;       ///< 2 with a 5-bit partition, or 1
     int endpoint_bits;
     int delta_bits[3];      ///< of the other endpoints' red, green, blue
     std::string_view bits;  ///< where the block's bits go, from its lowest bit: v[a:b] fills bits b … a of v, v[b:a] with b < a likewise
@@ -17,6 +17,7 @@ struct Bc6hMode {
 };
 
 /// ARB_texture_compression_bptc, tables MF and F.
+// clang-format off
 inline constexpr std::array<Bc6hMode, 14> kBc6hModes = {{
     {0, true, 2, 10, {5, 5, 5},
      "m[1:0],g2[4],b2[4],b3[4],r0[9:0],g0[9:0],b0[9:0],r1[4:0],g3[4],g2[3:0],g1[4:0],b3[0],g3[3:0],b1[4:0],b3[1],b2[3:0],r2[4:0],b3[2],"
@@ -53,10 +54,11 @@ inline constexpr std::array<Bc6hMode, 14> kBc6hModes = {{
     {11, true, 1, 12, {8, 8, 8}, "m[4:0],r0[9:0],g0[9:0],b0[9:0],r1[7:0],r0[10:11],g1[7:0],g0[10:11],b1[7:0],b0[10:11]"},
     {15, true, 1, 16, {4, 4, 4}, "m[4:0],r0[9:0],g0[9:0],b0[9:0],r1[3:0],r0[10:15],g1[3:0],g0[10:15],b1[3:0],b0[10:15]"},
 }};
+// clang-format on
 
 /// One element of `Bc6hMode::bits`: `count` bits of the block from `first` go to the variable's bits from `low` up, or reversed.
 struct Bc6hField {
-    int variable;   ///< 3*endpoint + channel, or one of the two below
+    int variable;  ///< 3*endpoint + channel, or one of the two below
     int first, low, count;
     bool reversed;
 };
@@ -65,7 +67,7 @@ inline constexpr int kBc6hPartition = 12, kBc6hCode = 13;
 struct Bc6hFields {
     std::array<Bc6hField, 32> field{};
     int count = 0;
-    int bits = 0;   ///< of the block, all fields together: 82 with two subsets, 65 with one
+    int bits = 0;  ///< of the block, all fields together: 82 with two subsets, 65 with one
 };
 
 /// Reads the notation of `Bc6hMode::bits`.
@@ -80,7 +82,13 @@ constexpr Bc6hFields parse_bc6h_fields(std::string_view text) {
     while (at < text.size()) {
         Bc6hField field{};
         const char letter = text[at++];
-        field.variable = letter == 'm' ? kBc6hCode : letter == 'd' ? kBc6hPartition : 3 * number() + (letter == 'r' ? 0 : letter == 'g' ? 1 : 2);
+        switch (letter) {
+            case 'm': field.variable = kBc6hCode; break;
+            case 'd': field.variable = kBc6hPartition; break;
+            case 'r': field.variable = 3 * number(); break;
+            case 'g': field.variable = 3 * number() + 1; break;
+            default: field.variable = 3 * number() + 2; break;
+        }
         ++at;  // [
         const int left = number();
         const int right = text[at] == ':' ? (++at, number()) : left;

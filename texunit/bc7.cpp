@@ -117,9 +117,8 @@ void decode_with_one_index(const BlockBits& bits, std::byte* texels) {
     constexpr int n = m.index_bits;
 
     std::array<uint32_t, size_t(m.subsets) << n> palette;
-    [&]<int... subset>(std::integer_sequence<int, subset...>) {
-        (fill_palette<mode, subset>(bits, palette), ...);
-    }(std::make_integer_sequence<int, m.subsets>{});
+    [&]<int... subset>(std::integer_sequence<int, subset...>) { (fill_palette<mode, subset>(bits, palette), ...); }
+    (std::make_integer_sequence<int, m.subsets>{});
 
     const size_t partition = bits.field(at.partition, m.partition_bits);
     uint64_t indices = widen_anchor(bits.field(at.indices, 16 * n - m.subsets), 0, n);

@@ -14,7 +14,8 @@ struct BlockBits {
 
     explicit BlockBits(const std::byte* block) : low(load<uint64_t>(block)), high(load<uint64_t>(block + 8)) {}
 
-    /// `count` bits from bit `first`; first <= 127, count <= 63, first + count <= 128. Folds to a shift or two when the arguments are constants.
+    /// `count` bits from bit `first`; first <= 127, count <= 63, first + count <= 128. Folds to a shift or two when the arguments are
+    /// constants.
     constexpr uint64_t field(int first, int count) const {
         const uint64_t mask = (uint64_t{1} << count) - 1;
         if (first >= 64) return (high >> (first - 64)) & mask;

@@ -12,17 +12,22 @@ namespace rawtexel::texunit {
 BlockDecoder block_decoder(Format format) {
     switch (format) {
         using enum Format;
-        case BC1RgbUnorm: case BC1RgbSrgb: return decode_bc1_rgb;
-        case BC1RgbaUnorm: case BC1RgbaSrgb: return decode_bc1_rgba;
-        case BC2Unorm: case BC2Srgb: return decode_bc2;
-        case BC3Unorm: case BC3Srgb: return decode_bc3;
+        case BC1RgbUnorm:
+        case BC1RgbSrgb: return decode_bc1_rgb;
+        case BC1RgbaUnorm:
+        case BC1RgbaSrgb: return decode_bc1_rgba;
+        case BC2Unorm:
+        case BC2Srgb: return decode_bc2;
+        case BC3Unorm:
+        case BC3Srgb: return decode_bc3;
         case BC4Unorm: return decode_bc4_unorm;
         case BC4Snorm: return decode_bc4_snorm;
         case BC5Unorm: return decode_bc5_unorm;
         case BC5Snorm: return decode_bc5_snorm;
         case BC6HUfloat: return decode_bc6h_ufloat;
         case BC6HSfloat: return decode_bc6h_sfloat;
-        case BC7Unorm: case BC7Srgb: return decode_bc7;
+        case BC7Unorm:
+        case BC7Srgb: return decode_bc7;
         default: return nullptr;
     }
 }

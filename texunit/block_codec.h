@@ -8,8 +8,8 @@
 namespace rawtexel::texunit {
 
 /// Decodes one block of a block-compressed `format` (8 or 16 bytes) into 16 texels of layout(format).storage, row by row.
-/// Any bit pattern decodes. BC6H and BC7 are bit exact (D3D11.3 19.5.14 and 19.5.15; reserved modes give zero, BC6H with alpha 1); BC1-BC5 keep the exact
-/// rational interpolation as integer numerators (see TexelLayout).
+/// Any bit pattern decodes. BC6H and BC7 are bit exact (D3D11.3 19.5.14 and 19.5.15; reserved modes give zero, BC6H with alpha 1); BC1-BC5
+/// keep the exact rational interpolation as integer numerators (see TexelLayout).
 void decode_block(Format format, const std::byte* block, std::byte* texels);
 
 /// The same for many blocks of one format: decodes one block. Null for formats that are not block-compressed.

@@ -28,11 +28,11 @@ struct Named {
 };
 
 constexpr Named kDxgiTypeless[] = {
-    {1, "R32G32B32A32_TYPELESS"}, {5, "R32G32B32_TYPELESS"}, {9, "R16G16B16A16_TYPELESS"}, {15, "R32G32_TYPELESS"},
-    {19, "R32G8X24_TYPELESS"},    {23, "R10G10B10A2_TYPELESS"}, {27, "R8G8B8A8_TYPELESS"}, {33, "R16G16_TYPELESS"},
-    {39, "R32_TYPELESS"},         {44, "R24G8_TYPELESS"},    {48, "R8G8_TYPELESS"},        {53, "R16_TYPELESS"},
-    {60, "R8_TYPELESS"},          {70, "BC1_TYPELESS"},      {73, "BC2_TYPELESS"},         {76, "BC3_TYPELESS"},
-    {79, "BC4_TYPELESS"},         {82, "BC5_TYPELESS"},      {90, "B8G8R8A8_TYPELESS"},    {92, "B8G8R8X8_TYPELESS"},
+    {1, "R32G32B32A32_TYPELESS"}, {5, "R32G32B32_TYPELESS"},    {9, "R16G16B16A16_TYPELESS"}, {15, "R32G32_TYPELESS"},
+    {19, "R32G8X24_TYPELESS"},    {23, "R10G10B10A2_TYPELESS"}, {27, "R8G8B8A8_TYPELESS"},    {33, "R16G16_TYPELESS"},
+    {39, "R32_TYPELESS"},         {44, "R24G8_TYPELESS"},       {48, "R8G8_TYPELESS"},        {53, "R16_TYPELESS"},
+    {60, "R8_TYPELESS"},          {70, "BC1_TYPELESS"},         {73, "BC2_TYPELESS"},         {76, "BC3_TYPELESS"},
+    {79, "BC4_TYPELESS"},         {82, "BC5_TYPELESS"},         {90, "B8G8R8A8_TYPELESS"},    {92, "B8G8R8X8_TYPELESS"},
     {94, "BC6H_TYPELESS"},        {97, "BC7_TYPELESS"},
 };
 
@@ -124,9 +124,12 @@ std::optional<FileTexel> vulkan_texel(uint32_t vk_format) {
         case 29: return three_channel_texel(RGBA8Srgb);
         case 30: return field_texel(kBgrx8, 3);
         case 36: return srgb_texel(field_texel(kBgrx8, 3));
-        case 37: case 51: return plain_texel(RGBA8Unorm);   // 51 to 57 are the same bytes, as words of 32 bits
-        case 38: case 52: return plain_texel(RGBA8Snorm);
-        case 43: case 57: return plain_texel(RGBA8Srgb);
+        case 37:
+        case 51: return plain_texel(RGBA8Unorm);  // 51 to 57 are the same bytes, as words of 32 bits
+        case 38:
+        case 52: return plain_texel(RGBA8Snorm);
+        case 43:
+        case 57: return plain_texel(RGBA8Srgb);
         case 44: return field_texel(kBgra8, 4);
         case 50: return srgb_texel(field_texel(kBgra8, 4));
         case 58: return field_texel(kBgr10a2, 4);

@@ -48,7 +48,7 @@ class InflatedBytes final : public ByteSource {
     std::unique_ptr<std::byte[]> inflate() const;
 
     std::shared_ptr<const ByteSource> file_;
-    std::string what_;   ///< for messages, such as "level 3"
+    std::string what_;  ///< for messages, such as "level 3"
     uint64_t offset_, compressed_bytes_, bytes_;
     mutable std::mutex inflating_;
     mutable std::atomic<bool> inflated_ = false;

@@ -67,8 +67,10 @@ class ContainerSource final : public TexelSource {
             place.bytes->read(at, {file_row, size_t(columns) * file_bytes});
             for (int x = 0; x < columns; ++x, next += own_bytes) {
                 const std::byte* const in = file_row + size_t(x) * file_bytes;
-                if (texel_.expand) texel_.expand(texel_, in, next);
-                else std::memcpy(next, in, own_bytes);
+                if (texel_.expand)
+                    texel_.expand(texel_, in, next);
+                else
+                    std::memcpy(next, in, own_bytes);
             }
         }
         store_block(texel_.format, own, columns, rows, size_t(columns) * own_bytes, 0, 0, texels);

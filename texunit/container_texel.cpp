@@ -135,7 +135,8 @@ FileTexel snorm16_texel(int channels) {
 FileTexel three_channel_texel(Format format_with_alpha) {
     FileTexel texel{.format = format_with_alpha, .file_bytes = info(format_with_alpha).bytes_per_block / 4 * 3};
     switch (format_with_alpha) {
-        case Format::RGBA8Unorm: case Format::RGBA8Srgb: texel.expand = expand_three_unorm8; break;
+        case Format::RGBA8Unorm:
+        case Format::RGBA8Srgb: texel.expand = expand_three_unorm8; break;
         case Format::RGBA8Snorm: texel.expand = expand_three_snorm8; break;
         case Format::RGBA16Unorm: texel.expand = expand_three_unorm16; break;
         case Format::RGBA16Half: texel.expand = expand_three_half; break;

@@ -34,7 +34,7 @@ ContainerKind container_kind(const ByteSource& bytes);
 
 /// Limits against hostile files.
 struct ContainerLimits {
-    uint64_t max_texture_bytes = uint64_t{4} << 30;   ///< stored bytes after decompression
+    uint64_t max_texture_bytes = uint64_t{4} << 30;  ///< stored bytes after decompression
 };
 
 /// Parse and check headers against the bytes that are really there; payload is read in pages when a block is first asked for, and

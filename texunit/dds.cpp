@@ -15,11 +15,12 @@ namespace rawtexel::texunit {
 namespace {
 
 constexpr uint32_t four_cc(const char (&text)[5]) {
-    return uint32_t(uint8_t(text[0])) | uint32_t(uint8_t(text[1])) << 8 | uint32_t(uint8_t(text[2])) << 16 | uint32_t(uint8_t(text[3])) << 24;
+    return uint32_t(uint8_t(text[0])) | uint32_t(uint8_t(text[1])) << 8 | uint32_t(uint8_t(text[2])) << 16 |
+           uint32_t(uint8_t(text[3])) << 24;
 }
 
-constexpr size_t kHeaderBytes = 4 + 124;   // magic and DDS_HEADER
-constexpr size_t kDx10Bytes = 20;          // DDS_HEADER_DXT10
+constexpr size_t kHeaderBytes = 4 + 124;  // magic and DDS_HEADER
+constexpr size_t kDx10Bytes = 20;         // DDS_HEADER_DXT10
 
 // DDS_HEADER.dwFlags, dwCaps2, DDS_PIXELFORMAT.dwFlags, and the fields of DDS_HEADER_DXT10.
 constexpr uint32_t kHasDepth = 0x800000;
@@ -58,7 +59,12 @@ Header read_header(const ByteSource& bytes) {
     const auto at = [&](size_t offset) { return load<uint32_t>(raw.data() + offset); };
     if (at(4) != 124) refuse(bytes.name(), "DDS header of " + std::to_string(at(4)) + " bytes; 124 are expected");
     if (at(76) != 32) refuse(bytes.name(), "DDS pixel format of " + std::to_string(at(76)) + " bytes; 32 are expected");
-    return {.flags = at(8), .height = at(12), .width = at(16), .depth = at(24), .levels = at(28), .caps2 = at(112),
+    return {.flags = at(8),
+            .height = at(12),
+            .width = at(16),
+            .depth = at(24),
+            .levels = at(28),
+            .caps2 = at(112),
             .pixel = {.flags = at(80), .four_cc = at(84), .bits = at(88), .mask = {at(92), at(96), at(100), at(104)}}};
 }
 
@@ -75,12 +81,16 @@ std::optional<FileTexel> four_cc_texel(uint32_t code) {
     using enum Format;
     switch (code) {
         case four_cc("DXT1"): return plain_texel(BC1RgbaUnorm);
-        case four_cc("DXT2"): case four_cc("DXT3"): return plain_texel(BC2Unorm);
-        case four_cc("DXT4"): case four_cc("DXT5"): return plain_texel(BC3Unorm);
+        case four_cc("DXT2"):
+        case four_cc("DXT3"): return plain_texel(BC2Unorm);
+        case four_cc("DXT4"):
+        case four_cc("DXT5"): return plain_texel(BC3Unorm);
         case four_cc("RXGB"): return rxgb_block();
-        case four_cc("ATI1"): case four_cc("BC4U"): return plain_texel(BC4Unorm);
+        case four_cc("ATI1"):
+        case four_cc("BC4U"): return plain_texel(BC4Unorm);
         case four_cc("BC4S"): return plain_texel(BC4Snorm);
-        case four_cc("ATI2"): case four_cc("BC5U"): return plain_texel(BC5Unorm);
+        case four_cc("ATI2"):
+        case four_cc("BC5U"): return plain_texel(BC5Unorm);
         case four_cc("BC5S"): return plain_texel(BC5Snorm);
         case 36: return plain_texel(RGBA16Unorm);
         case 110: return snorm16_texel(4);
@@ -126,8 +136,10 @@ std::optional<FileTexel> bump_texel(const PixelFormat& pixel) {
 std::optional<FileTexel> masked_texel(const PixelFormat& pixel) {
     if ((pixel.flags & kBump) != 0) return bump_texel(pixel);
     std::array<uint32_t, 4> mask{};
-    if ((pixel.flags & kLuminance) != 0) mask = {pixel.mask[0], pixel.mask[0], pixel.mask[0], 0};
-    else if ((pixel.flags & kRgb) != 0) mask = {pixel.mask[0], pixel.mask[1], pixel.mask[2], 0};
+    if ((pixel.flags & kLuminance) != 0)
+        mask = {pixel.mask[0], pixel.mask[0], pixel.mask[0], 0};
+    else if ((pixel.flags & kRgb) != 0)
+        mask = {pixel.mask[0], pixel.mask[1], pixel.mask[2], 0};
     if ((pixel.flags & (kAlpha | kAlphaPixels)) != 0) mask[3] = pixel.mask[3];
     if (pixel.bits % 8 != 0 || pixel.bits > 32 || !valid_field_masks(mask, int(pixel.bits / 8))) return std::nullopt;
     return field_texel(mask, int(pixel.bits / 8));
@@ -148,7 +160,8 @@ struct Image {
 
 void check_cube(const std::string& name, const Shape& shape) {
     if (shape.width != shape.height) {
-        refuse(name, "cube map with faces of " + std::to_string(shape.width) + "x" + std::to_string(shape.height) + " texels; faces are square");
+        refuse(name,
+               "cube map with faces of " + std::to_string(shape.width) + "x" + std::to_string(shape.height) + " texels; faces are square");
     }
 }
 

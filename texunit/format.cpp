@@ -149,30 +149,40 @@ TexelLayout bc3_layout(bool srgb) {
 TexelLayout make_layout(Format format) {
     const FormatInfo& about = info(format);
     switch (format) {
-        case R8Unorm: case RG8Unorm: case RGBA8Unorm: case BC7Unorm:
-            return coded_layout(StorageClass::Packed32, about.channels, 8, 255);
-        case R8Snorm: case RG8Snorm: case RGBA8Snorm:
-            return signed_layout(coded_layout(StorageClass::Packed32, about.channels, 8, 127));
-        case R8Srgb: case RG8Srgb: case RGBA8Srgb: case BC7Srgb:
-            return srgb8_layout(about.channels);
-        case R16Unorm: case RG16Unorm: case RGBA16Unorm:
-            return coded_layout(StorageClass::Packed64, about.channels, 16, 65535);
-        case R16Half: case RG16Half: case RGBA16Half: case BC6HUfloat: case BC6HSfloat:
-            return empty_layout(StorageClass::Half4);
-        case R32Float: case RG32Float: case RGBA32Float:
-            return empty_layout(StorageClass::Float4);
-        case BC1RgbUnorm: case BC1RgbSrgb:
-            return bc1_layout(about.srgb, 0);
-        case BC1RgbaUnorm: case BC1RgbaSrgb:
-            return bc1_layout(about.srgb, 1);
-        case BC2Unorm: case BC2Srgb:
-            return bc1_layout(about.srgb, 15);
-        case BC3Unorm: case BC3Srgb:
-            return bc3_layout(about.srgb);
-        case BC4Unorm: case BC5Unorm:
-            return coded_layout(StorageClass::Packed64, about.channels, 16, 255 * 35);
-        case BC4Snorm: case BC5Snorm:
-            return signed_layout(coded_layout(StorageClass::Packed64, about.channels, 16, 127 * 35));
+        case R8Unorm:
+        case RG8Unorm:
+        case RGBA8Unorm:
+        case BC7Unorm: return coded_layout(StorageClass::Packed32, about.channels, 8, 255);
+        case R8Snorm:
+        case RG8Snorm:
+        case RGBA8Snorm: return signed_layout(coded_layout(StorageClass::Packed32, about.channels, 8, 127));
+        case R8Srgb:
+        case RG8Srgb:
+        case RGBA8Srgb:
+        case BC7Srgb: return srgb8_layout(about.channels);
+        case R16Unorm:
+        case RG16Unorm:
+        case RGBA16Unorm: return coded_layout(StorageClass::Packed64, about.channels, 16, 65535);
+        case R16Half:
+        case RG16Half:
+        case RGBA16Half:
+        case BC6HUfloat:
+        case BC6HSfloat: return empty_layout(StorageClass::Half4);
+        case R32Float:
+        case RG32Float:
+        case RGBA32Float: return empty_layout(StorageClass::Float4);
+        case BC1RgbUnorm:
+        case BC1RgbSrgb: return bc1_layout(about.srgb, 0);
+        case BC1RgbaUnorm:
+        case BC1RgbaSrgb: return bc1_layout(about.srgb, 1);
+        case BC2Unorm:
+        case BC2Srgb: return bc1_layout(about.srgb, 15);
+        case BC3Unorm:
+        case BC3Srgb: return bc3_layout(about.srgb);
+        case BC4Unorm:
+        case BC5Unorm: return coded_layout(StorageClass::Packed64, about.channels, 16, 255 * 35);
+        case BC4Snorm:
+        case BC5Snorm: return signed_layout(coded_layout(StorageClass::Packed64, about.channels, 16, 127 * 35));
     }
     assert(false && "not a format");
     return {};
@@ -186,8 +196,8 @@ std::array<TexelLayout, kFormatCount> make_layouts() {
 
 /// Formats that differ only in the transfer function.
 constexpr Format kSrgbPairs[][2] = {
-    {R8Unorm, R8Srgb},           {RG8Unorm, RG8Srgb},   {RGBA8Unorm, RGBA8Srgb}, {BC1RgbUnorm, BC1RgbSrgb},
-    {BC1RgbaUnorm, BC1RgbaSrgb}, {BC2Unorm, BC2Srgb},   {BC3Unorm, BC3Srgb},     {BC7Unorm, BC7Srgb},
+    {R8Unorm, R8Srgb},           {RG8Unorm, RG8Srgb}, {RGBA8Unorm, RGBA8Srgb}, {BC1RgbUnorm, BC1RgbSrgb},
+    {BC1RgbaUnorm, BC1RgbaSrgb}, {BC2Unorm, BC2Srgb}, {BC3Unorm, BC3Srgb},     {BC7Unorm, BC7Srgb},
 };
 
 }  // namespace

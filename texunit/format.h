@@ -11,16 +11,40 @@ namespace rawtexel::texunit {
 /// Channel counts x encodings that a texture unit samples, and the block-compressed formats of D3D11 and Vulkan.
 /// Missing channels read as 0, missing alpha as 1.
 enum class Format : uint8_t {
-    R8Unorm, RG8Unorm, RGBA8Unorm,
-    R8Snorm, RG8Snorm, RGBA8Snorm,
-    R8Srgb, RG8Srgb, RGBA8Srgb,  // alpha is linear
-    R16Unorm, RG16Unorm, RGBA16Unorm,
-    R16Half, RG16Half, RGBA16Half,
-    R32Float, RG32Float, RGBA32Float,
-    BC1RgbUnorm, BC1RgbSrgb, BC1RgbaUnorm, BC1RgbaSrgb,
-    BC2Unorm, BC2Srgb, BC3Unorm, BC3Srgb,
-    BC4Unorm, BC4Snorm, BC5Unorm, BC5Snorm,
-    BC6HUfloat, BC6HSfloat, BC7Unorm, BC7Srgb,
+    R8Unorm,
+    RG8Unorm,
+    RGBA8Unorm,
+    R8Snorm,
+    RG8Snorm,
+    RGBA8Snorm,
+    R8Srgb,
+    RG8Srgb,
+    RGBA8Srgb,  // alpha is linear
+    R16Unorm,
+    RG16Unorm,
+    RGBA16Unorm,
+    R16Half,
+    RG16Half,
+    RGBA16Half,
+    R32Float,
+    RG32Float,
+    RGBA32Float,
+    BC1RgbUnorm,
+    BC1RgbSrgb,
+    BC1RgbaUnorm,
+    BC1RgbaSrgb,
+    BC2Unorm,
+    BC2Srgb,
+    BC3Unorm,
+    BC3Srgb,
+    BC4Unorm,
+    BC4Snorm,
+    BC5Unorm,
+    BC5Snorm,
+    BC6HUfloat,
+    BC6HSfloat,
+    BC7Unorm,
+    BC7Srgb,
 };
 inline constexpr int kFormatCount = int(Format::BC7Srgb) + 1;
 
@@ -71,11 +95,11 @@ uint64_t stored_bytes(Format format, int width, int height);
 struct TexelLayout {
     StorageClass storage;
     bool is_signed;
-    uint8_t shift[4];        ///< bits, 0..63
-    uint32_t mask[4];        ///< 0 for a channel that is not stored
-    float scale_hi[4], scale_lo[4], bias[4];   ///< bias is 1 for the missing alpha, else 0
-    const float* table[4];   ///< linear values by field, mask[c] + 1 of them, for sRGB; null where the scale holds
-    int denominator[4];      ///< the field that means 1.0; 0 for a channel that is not stored
+    uint8_t shift[4];                         ///< bits, 0..63
+    uint32_t mask[4];                         ///< 0 for a channel that is not stored
+    float scale_hi[4], scale_lo[4], bias[4];  ///< bias is 1 for the missing alpha, else 0
+    const float* table[4];                    ///< linear values by field, mask[c] + 1 of them, for sRGB; null where the scale holds
+    int denominator[4];                       ///< the field that means 1.0; 0 for a channel that is not stored
 };
 
 const TexelLayout& layout(Format format);

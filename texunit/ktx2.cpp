@@ -42,14 +42,21 @@ Header read_header(const ByteSource& bytes) {
     check_inside(bytes, "the data format descriptor", u32(48), u32(52));
     check_inside(bytes, "the key/value data", u32(56), u32(60));
     check_inside(bytes, "the supercompression data", u64(64), u64(72));
-    return {.vk_format = u32(12), .width = u32(20), .height = u32(24), .depth = u32(28), .layers = u32(32), .faces = u32(36), .levels = u32(40),
+    return {.vk_format = u32(12),
+            .width = u32(20),
+            .height = u32(24),
+            .depth = u32(28),
+            .layers = u32(32),
+            .faces = u32(36),
+            .levels = u32(40),
             .scheme = u32(44)};
 }
 
 /// Nullopt for the schemes that are read.
 std::optional<std::string> unsupported_scheme(uint32_t scheme) {
     switch (scheme) {
-        case kUncompressed: case kZstandard: return std::nullopt;
+        case kUncompressed:
+        case kZstandard: return std::nullopt;
         case 1: return "BasisLZ";
         case 3: return "ZLIB";
         default: return "scheme " + std::to_string(scheme);
@@ -64,7 +71,8 @@ Shape read_shape(const std::string& name, const Header& header) {
     if (header.faces != 1 && header.faces != 6) refuse(name, std::to_string(header.faces) + " faces; 1 or 6 are allowed");
     shape.cube = header.faces == 6;
     if (shape.cube && shape.width != shape.height) {
-        refuse(name, "cube map with faces of " + std::to_string(shape.width) + "x" + std::to_string(shape.height) + " texels; faces are square");
+        refuse(name,
+               "cube map with faces of " + std::to_string(shape.width) + "x" + std::to_string(shape.height) + " texels; faces are square");
     }
     if (header.depth != 0) {
         if (shape.cube || header.layers != 0) refuse(name, "3-D texture that is an array or a cube map");
@@ -137,7 +145,8 @@ std::unique_ptr<TexelSource> open_ktx2(std::shared_ptr<const ByteSource> bytes, 
         if (header.scheme == kUncompressed) {
             places.push_back({payload, at.offset, slice});
         } else {
-            auto inflated = std::make_shared<InflatedBytes>(bytes, "level " + std::to_string(level), at.offset, at.bytes, at.uncompressed_bytes);
+            auto inflated =
+                std::make_shared<InflatedBytes>(bytes, "level " + std::to_string(level), at.offset, at.bytes, at.uncompressed_bytes);
             places.push_back({std::move(inflated), 0, slice});
         }
     }

@@ -120,7 +120,8 @@ TEST(Bc6h, ReservedModesAreOpaqueBlackWhateverFollows) {
             const uint64_t bits[2] = {(random() & ~uint64_t{31}) | uint64_t(code), random()};
             std::memcpy(block.data(), bits, 16);
             for (const bool is_signed : {false, true}) {
-                for (const auto& texel : decode(block, is_signed)) ASSERT_EQ(texel, (std::array<uint16_t, 4>{0, 0, 0, kHalfOne})) << print(block);
+                for (const auto& texel : decode(block, is_signed))
+                    ASSERT_EQ(texel, (std::array<uint16_t, 4>{0, 0, 0, kHalfOne})) << print(block);
             }
         }
     }
@@ -134,8 +135,8 @@ TEST(Bc6h, LargestUnsignedValueIsTheLargestHalf) {
 
 TEST(Bc6h, SignedValuesReachMinusInfinityAndNeverMinusZero) {
     Bc6hBlockFields fields{.mode = 13};
-    fields.code[0][0] = 0x8000;   // -32768 in the mode of 16-bit endpoints
-    fields.code[0][1] = 0xFFFF;   // -1, whose magnitude rounds to zero
+    fields.code[0][0] = 0x8000;  // -32768 in the mode of 16-bit endpoints
+    fields.code[0][1] = 0xFFFF;  // -1, whose magnitude rounds to zero
     const Halves texels = decode(reference::build_bc6h(fields), true);
     EXPECT_EQ(texels[0][0], 0xFC00);
     EXPECT_EQ(texels[0][1], 0x0000);

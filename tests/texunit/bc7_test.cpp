@@ -53,9 +53,9 @@ void expect_equal(const Bc7Fields& fields) {
     const Texels texels = decode(block), expected = reference::evaluate_bc7(fields);
     if (texels == expected) return;
     for (size_t texel = 0; texel < 16; ++texel) {
-        ASSERT_EQ(texels[texel], expected[texel]) << "mode " << fields.mode << " partition " << fields.partition << " rotation "
-                                                  << fields.rotation << " selection " << fields.selection << " texel " << texel << " block "
-                                                  << print(block);
+        ASSERT_EQ(texels[texel], expected[texel])
+            << "mode " << fields.mode << " partition " << fields.partition << " rotation " << fields.rotation << " selection "
+            << fields.selection << " texel " << texel << " block " << print(block);
     }
 }
 

@@ -58,8 +58,8 @@ std::array<std::byte, 16> joined(const std::array<std::byte, 8>& first, const st
     return block;
 }
 
-constexpr uint32_t kEveryColourIndex = 0xE4E4E4E4;   // 0 1 2 3 along every row
-constexpr uint64_t kEveryValueIndex = 0xFAC688FAC688;   // 0 1 2 3 / 4 5 6 7 / 0 1 …
+constexpr uint32_t kEveryColourIndex = 0xE4E4E4E4;     // 0 1 2 3 along every row
+constexpr uint64_t kEveryValueIndex = 0xFAC688FAC688;  // 0 1 2 3 / 4 5 6 7 / 0 1 …
 
 void expect_colour(const Decoded& decoded, const std::byte* block, ColourRule rule, bool has_alpha, const char* format) {
     for (int texel = 0; texel < 16; ++texel) {
@@ -67,8 +67,9 @@ void expect_colour(const Decoded& decoded, const std::byte* block, ColourRule ru
             const Fraction expected = reference::evaluate_colour(block, rule, channel, texel), got = decoded(channel, texel);
             uint64_t bits;
             std::memcpy(&bits, block, 8);
-            ASSERT_EQ(got, expected) << format << " block " << std::hex << bits << std::dec << " texel " << texel << " channel " << channel << ": "
-                                     << got.numerator << '/' << got.denominator << " instead of " << expected.numerator << '/' << expected.denominator;
+            ASSERT_EQ(got, expected) << format << " block " << std::hex << bits << std::dec << " texel " << texel << " channel " << channel
+                                     << ": " << got.numerator << '/' << got.denominator << " instead of " << expected.numerator << '/'
+                                     << expected.denominator;
         }
         if (has_alpha) {
             ASSERT_EQ(decoded(3, texel), reference::evaluate_colour(block, rule, 3, texel)) << format << " texel " << texel;
@@ -148,8 +149,10 @@ TEST(ValueBlocks, AreExactForEveryEndpointPairAndIndex) {
             const auto block = value_block(first, second, kEveryValueIndex);
             const Decoded positive(Format::BC4Unorm, block.data()), with_sign(Format::BC4Snorm, block.data());
             for (int texel = 0; texel < 16; ++texel) {
-                ASSERT_EQ(positive(0, texel), reference::evaluate_unsigned_value(block.data(), texel)) << first << ' ' << second << " texel " << texel;
-                ASSERT_EQ(with_sign(0, texel), reference::evaluate_signed_value(block.data(), texel)) << first << ' ' << second << " texel " << texel;
+                ASSERT_EQ(positive(0, texel), reference::evaluate_unsigned_value(block.data(), texel))
+                    << first << ' ' << second << " texel " << texel;
+                ASSERT_EQ(with_sign(0, texel), reference::evaluate_signed_value(block.data(), texel))
+                    << first << ' ' << second << " texel " << texel;
             }
         }
     }

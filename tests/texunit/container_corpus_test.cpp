@@ -97,14 +97,30 @@ TEST_F(ContainerCorpus, OpensEveryFileButTheBrokenOnes) {
 
 TEST_F(ContainerCorpus, HasTheFormatsThatItsFilesAreNamedFor) {
     const std::map<std::string, std::string> formats = {
-        {"dds_a8.dds", "rgba8-unorm"},        {"dds_abgr8.dds", "rgba8-unorm"},        {"dds_bc1.dds", "bc1-rgba-unorm"},
-        {"dds_bc2.dds", "bc2-unorm"},         {"dds_bc3.dds", "bc3-unorm"},            {"dds_bc3rxgb.dds", "rgba16-unorm"},
-        {"dds_bc4.dds", "bc4-unorm"},         {"dds_bc5.dds", "bc5-unorm"},            {"dds_bc6hu.dds", "bc6h-ufloat"},
-        {"dds_bc7.dds", "bc7-unorm"},         {"dds_dxgi_bc1_srgb.dds", "bc1-rgba-srgb"}, {"dds_dxgi_bc7_srgb.dds", "bc7-srgb"},
-        {"dds_dxgi_bgrx8_srgb.dds", "rgba8-srgb"}, {"dds_dxgi_r16.dds", "r16-unorm"},  {"dds_dxgi_rgb10a2.dds", "rgba16-unorm"},
-        {"dds_l8a8.dds", "rgba8-unorm"},      {"dds_rgb332.dds", "rgba16-unorm"},      {"dds_rgba4.dds", "rgba8-unorm"},
-        {"dds_rgb8.dds", "rgba8-unorm"},      {"lythwood_room_1k_bc6h_signed.dds", "bc6h-sfloat"}, {"2d_rgba32_linear.ktx2", "rgba32-float"},
-        {"2d_bc1.ktx2", "bc1-rgb-srgb"},      {"2d_rgba8.ktx2", "rgba8-srgb"},         {"Ryfjallet_cubemap_bc7.ktx2", "bc7-srgb"},
+        {"dds_a8.dds", "rgba8-unorm"},
+        {"dds_abgr8.dds", "rgba8-unorm"},
+        {"dds_bc1.dds", "bc1-rgba-unorm"},
+        {"dds_bc2.dds", "bc2-unorm"},
+        {"dds_bc3.dds", "bc3-unorm"},
+        {"dds_bc3rxgb.dds", "rgba16-unorm"},
+        {"dds_bc4.dds", "bc4-unorm"},
+        {"dds_bc5.dds", "bc5-unorm"},
+        {"dds_bc6hu.dds", "bc6h-ufloat"},
+        {"dds_bc7.dds", "bc7-unorm"},
+        {"dds_dxgi_bc1_srgb.dds", "bc1-rgba-srgb"},
+        {"dds_dxgi_bc7_srgb.dds", "bc7-srgb"},
+        {"dds_dxgi_bgrx8_srgb.dds", "rgba8-srgb"},
+        {"dds_dxgi_r16.dds", "r16-unorm"},
+        {"dds_dxgi_rgb10a2.dds", "rgba16-unorm"},
+        {"dds_l8a8.dds", "rgba8-unorm"},
+        {"dds_rgb332.dds", "rgba16-unorm"},
+        {"dds_rgba4.dds", "rgba8-unorm"},
+        {"dds_rgb8.dds", "rgba8-unorm"},
+        {"lythwood_room_1k_bc6h_signed.dds", "bc6h-sfloat"},
+        {"2d_rgba32_linear.ktx2", "rgba32-float"},
+        {"2d_bc1.ktx2", "bc1-rgb-srgb"},
+        {"2d_rgba8.ktx2", "rgba8-srgb"},
+        {"Ryfjallet_cubemap_bc7.ktx2", "bc7-srgb"},
     };
     size_t found = 0;
     for (const auto& path : files("bc")) {

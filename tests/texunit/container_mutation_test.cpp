@@ -47,7 +47,8 @@ std::vector<Bytes> seeds() {
 
 /// Damages `bytes` in one to four places, more often in the header than behind it.
 void mutate(Bytes& bytes, std::mt19937_64& random) {
-    static constexpr uint32_t kInteresting[] = {0, 1, 2, 3, 4, 6, 7, 255, 256, 16384, 16385, 65535, 65536, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF};
+    static constexpr uint32_t kInteresting[] = {0,   1,     2,     3,     4,     6,          7,          255,
+                                                256, 16384, 16385, 65535, 65536, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF};
     const auto below = [&](size_t limit) { return size_t(random() % limit); };
     for (size_t damages = 1 + below(4); damages > 0 && bytes.size() > 8; --damages) {
         const size_t limit = random() % 4 ? std::min<size_t>(bytes.size(), 200) : bytes.size();
@@ -125,7 +126,8 @@ TEST(DamagedContainers, EndInTexelsOrInATextureErrorWithBoundedMemory) {
 TEST(DamagedContainers, OfHugeExtentsAllocateNothing) {
     // A header of 16384 x 16384 x 2048 layers without its texels.
     Bytes dds = write_dds(random_image({}, 1, 16, 1), 2);
-    for (const auto& [at, value] : {std::pair{12, 16384u}, {16, 16384u}, {28, 15u}, {140, 2048u}}) test_files::put32(dds, size_t(at), value);
+    for (const auto& [at, value] : {std::pair{12, 16384u}, {16, 16384u}, {28, 15u}, {140, 2048u}})
+        test_files::put32(dds, size_t(at), value);
     Bytes ktx2 = write_ktx2(random_image({}, 1, 16, 1), 109, 2);
     for (const auto& [at, value] : {std::pair{20, 16384u}, {24, 16384u}, {32, 2048u}}) test_files::put32(ktx2, size_t(at), value);
     for (const Bytes& bytes : {dds, ktx2}) {

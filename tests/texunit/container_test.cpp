@@ -78,15 +78,17 @@ std::unique_ptr<TexelSource> open_case(std::shared_ptr<const ByteSource> bytes) 
     return container_kind(*bytes) == ContainerKind::Dds ? open_dds(std::move(bytes)) : open_ktx2(std::move(bytes));
 }
 
-/// Files of several pages, whose blocks and rows straddle page boundaries.
+/// Files of several pages, whose blocks and rows straddle page boundaries, at even and odd offsets.
 std::vector<FileCase> files_of_many_pages() {
     const StoredImage blocks = random_image({.width = 300, .height = 520, .levels = 9}, 4, 16, 2);
     const StoredImage texels = random_image({.width = 211, .height = 129, .layers = 6, .levels = 3}, 1, 4, 3);
+    const StoredImage bytes = random_image({.width = 333, .height = 777}, 1, 1, 5);
     std::vector<FileCase> cases;
     cases.push_back({"DDS BC7", write_dds(blocks, 98), blocks, Format::BC7Unorm});
     cases.push_back({"KTX2 BC7", write_ktx2(blocks, 145), blocks, Format::BC7Unorm});
     cases.push_back({"DDS RGBA8", write_dds(texels, 28), texels, Format::RGBA8Unorm});
     cases.push_back({"KTX2 RGBA8 zstd", write_ktx2(texels, 37, 2), texels, Format::RGBA8Unorm});
+    cases.push_back({"DDS R8", write_dds(bytes, 61), bytes, Format::R8Unorm});
     return cases;
 }
 

@@ -54,8 +54,10 @@ void append_dds_texels(Bytes& bytes, const StoredImage& image) {
     for (int layer = 0; layer < (volume ? 1 : image.shape.layers); ++layer) {
         for (int level = 0; level < image.shape.levels; ++level) {
             const auto& slices = image.slices[size_t(level)];
-            if (!volume) append(bytes, slices[size_t(layer)]);
-            else for (const Bytes& slice : slices) append(bytes, slice);
+            if (!volume)
+                append(bytes, slices[size_t(layer)]);
+            else
+                for (const Bytes& slice : slices) append(bytes, slice);
         }
     }
 }
@@ -194,8 +196,9 @@ void expect_same_texels(TexelSource& source, const StoredImage& image, Format fo
                     const Bytes expected = expected_block(image, format, level, slice, x, y);
                     Bytes got(expected.size());
                     source.decode_block(level, slice, x, y, got.data());
-                    ASSERT_TRUE(got == expected) << info(format).name << ' ' << image.shape.width << 'x' << image.shape.height << 'x'
-                                                 << image.shape.depth << " level " << level << " slice " << slice << " block " << x << ", " << y;
+                    ASSERT_TRUE(got == expected)
+                        << info(format).name << ' ' << image.shape.width << 'x' << image.shape.height << 'x' << image.shape.depth
+                        << " level " << level << " slice " << slice << " block " << x << ", " << y;
                 }
             }
         }

@@ -46,12 +46,12 @@ struct DxgiCase {
 
 /// Formats whose units the file stores as texunit does.
 const DxgiCase kDxgiFormats[] = {
-    {2, Format::RGBA32Float}, {10, Format::RGBA16Half},  {11, Format::RGBA16Unorm},  {16, Format::RG32Float},  {28, Format::RGBA8Unorm},
-    {29, Format::RGBA8Srgb},  {31, Format::RGBA8Snorm},  {34, Format::RG16Half},     {35, Format::RG16Unorm},  {41, Format::R32Float},
-    {49, Format::RG8Unorm},   {51, Format::RG8Snorm},    {54, Format::R16Half},      {56, Format::R16Unorm},   {61, Format::R8Unorm},
-    {63, Format::R8Snorm},    {71, Format::BC1RgbaUnorm}, {72, Format::BC1RgbaSrgb}, {74, Format::BC2Unorm},   {75, Format::BC2Srgb},
-    {77, Format::BC3Unorm},   {78, Format::BC3Srgb},     {80, Format::BC4Unorm},     {81, Format::BC4Snorm},   {83, Format::BC5Unorm},
-    {84, Format::BC5Snorm},   {95, Format::BC6HUfloat},  {96, Format::BC6HSfloat},   {98, Format::BC7Unorm},   {99, Format::BC7Srgb},
+    {2, Format::RGBA32Float}, {10, Format::RGBA16Half},   {11, Format::RGBA16Unorm}, {16, Format::RG32Float}, {28, Format::RGBA8Unorm},
+    {29, Format::RGBA8Srgb},  {31, Format::RGBA8Snorm},   {34, Format::RG16Half},    {35, Format::RG16Unorm}, {41, Format::R32Float},
+    {49, Format::RG8Unorm},   {51, Format::RG8Snorm},     {54, Format::R16Half},     {56, Format::R16Unorm},  {61, Format::R8Unorm},
+    {63, Format::R8Snorm},    {71, Format::BC1RgbaUnorm}, {72, Format::BC1RgbaSrgb}, {74, Format::BC2Unorm},  {75, Format::BC2Srgb},
+    {77, Format::BC3Unorm},   {78, Format::BC3Srgb},      {80, Format::BC4Unorm},    {81, Format::BC4Snorm},  {83, Format::BC5Unorm},
+    {84, Format::BC5Snorm},   {95, Format::BC6HUfloat},   {96, Format::BC6HSfloat},  {98, Format::BC7Unorm},  {99, Format::BC7Srgb},
 };
 
 /// Extents that are no multiples of 4, chains whose axes end at different levels, and every kind of texture.
@@ -84,12 +84,24 @@ TEST(Dds, HoldsEveryDxgiFormatInEveryShape) {
 
 TEST(Dds, HoldsLegacyFormatsInEveryShape) {
     const std::pair<uint32_t, Format> formats[] = {
-        {four_cc("DXT1"), Format::BC1RgbaUnorm}, {four_cc("DXT2"), Format::BC2Unorm}, {four_cc("DXT3"), Format::BC2Unorm},
-        {four_cc("DXT4"), Format::BC3Unorm},     {four_cc("DXT5"), Format::BC3Unorm}, {four_cc("ATI1"), Format::BC4Unorm},
-        {four_cc("BC4U"), Format::BC4Unorm},     {four_cc("BC4S"), Format::BC4Snorm}, {four_cc("ATI2"), Format::BC5Unorm},
-        {four_cc("BC5U"), Format::BC5Unorm},     {four_cc("BC5S"), Format::BC5Snorm}, {36, Format::RGBA16Unorm},
-        {111, Format::R16Half},                  {112, Format::RG16Half},             {113, Format::RGBA16Half},
-        {114, Format::R32Float},                 {115, Format::RG32Float},            {116, Format::RGBA32Float},
+        {four_cc("DXT1"), Format::BC1RgbaUnorm},
+        {four_cc("DXT2"), Format::BC2Unorm},
+        {four_cc("DXT3"), Format::BC2Unorm},
+        {four_cc("DXT4"), Format::BC3Unorm},
+        {four_cc("DXT5"), Format::BC3Unorm},
+        {four_cc("ATI1"), Format::BC4Unorm},
+        {four_cc("BC4U"), Format::BC4Unorm},
+        {four_cc("BC4S"), Format::BC4Snorm},
+        {four_cc("ATI2"), Format::BC5Unorm},
+        {four_cc("BC5U"), Format::BC5Unorm},
+        {four_cc("BC5S"), Format::BC5Snorm},
+        {36, Format::RGBA16Unorm},
+        {111, Format::R16Half},
+        {112, Format::RG16Half},
+        {113, Format::RGBA16Half},
+        {114, Format::R32Float},
+        {115, Format::RG32Float},
+        {116, Format::RGBA32Float},
     };
     for (const auto& [code, format] : formats) {
         for (const Shape& shape : kShapes) {
@@ -121,20 +133,46 @@ TEST(Dds, ReadsUncompressedTexelsOfAnyArrangement) {
         {"l16", {kLuminance, 0, 16, {0xFFFF, 0, 0, 0}}, 0x3333, Format::RGBA16Unorm, {0.2, 0.2, 0.2, 1}},
         {"a4l4", {kLuminance | kAlphaPixels, 0, 8, {0x0F, 0, 0, 0xF0}}, 0x96, Format::RGBA8Unorm, {0.4, 0.4, 0.4, 0.6}},
         {"r3g3b2", {kRgb, 0, 8, {0xE0, 0x1C, 0x03, 0}}, 0xB1, Format::RGBA16Unorm, {5 / 7.0, 4 / 7.0, 1 / 3.0, 1}},
-        {"a8r3g3b2", {kRgb | kAlphaPixels, 0, 16, {0xE0, 0x1C, 0x03, 0xFF00}}, 0x33B1, Format::RGBA16Unorm, {5 / 7.0, 4 / 7.0, 1 / 3.0, 0.2}},
-        {"a1r5g5b5", {kRgb | kAlphaPixels, 0, 16, {0x7C00, 0x3E0, 0x1F, 0x8000}}, 0x8000 | (30u << 10) | (7u << 5) | 1, Format::RGBA16Unorm,
+        {"a8r3g3b2",
+         {kRgb | kAlphaPixels, 0, 16, {0xE0, 0x1C, 0x03, 0xFF00}},
+         0x33B1,
+         Format::RGBA16Unorm,
+         {5 / 7.0, 4 / 7.0, 1 / 3.0, 0.2}},
+        {"a1r5g5b5",
+         {kRgb | kAlphaPixels, 0, 16, {0x7C00, 0x3E0, 0x1F, 0x8000}},
+         0x8000 | (30u << 10) | (7u << 5) | 1,
+         Format::RGBA16Unorm,
          {30 / 31.0, 7 / 31.0, 1 / 31.0, 1}},
         {"x1r5g5b5", {kRgb, 0, 16, {0x7C00, 0x3E0, 0x1F, 0x8000}}, 30u << 10, Format::RGBA16Unorm, {30 / 31.0, 0, 0, 1}},
         {"a4r4g4b4", {kRgb | kAlphaPixels, 0, 16, {0xF00, 0xF0, 0xF, 0xF000}}, 0x3692, Format::RGBA8Unorm, {0.4, 0.6, 2 / 15.0, 0.2}},
-        {"r5g6b5", {kRgb, 0, 16, {0xF800, 0x7E0, 0x1F, 0}}, (3u << 11) | (62u << 5) | 17, Format::RGBA16Unorm, {3 / 31.0, 62 / 63.0, 17 / 31.0, 1}},
+        {"r5g6b5",
+         {kRgb, 0, 16, {0xF800, 0x7E0, 0x1F, 0}},
+         (3u << 11) | (62u << 5) | 17,
+         Format::RGBA16Unorm,
+         {3 / 31.0, 62 / 63.0, 17 / 31.0, 1}},
         {"r8g8b8", {kRgb, 0, 24, {0xFF0000, 0xFF00, 0xFF, 0}}, 0x336699, Format::RGBA8Unorm, {0.2, 0.4, 0.6, 1}},
         {"b8g8r8", {kRgb, 0, 24, {0xFF, 0xFF00, 0xFF0000, 0}}, 0x336699, Format::RGBA8Unorm, {0.6, 0.4, 0.2, 1}},
-        {"a8r8g8b8", {kRgb | kAlphaPixels, 0, 32, {0xFF0000, 0xFF00, 0xFF, 0xFF000000}}, 0xCC336699, Format::RGBA8Unorm, {0.2, 0.4, 0.6, 0.8}},
+        {"a8r8g8b8",
+         {kRgb | kAlphaPixels, 0, 32, {0xFF0000, 0xFF00, 0xFF, 0xFF000000}},
+         0xCC336699,
+         Format::RGBA8Unorm,
+         {0.2, 0.4, 0.6, 0.8}},
         {"x8r8g8b8", {kRgb, 0, 32, {0xFF0000, 0xFF00, 0xFF, 0xFF000000}}, 0x00336699, Format::RGBA8Unorm, {0.2, 0.4, 0.6, 1}},
-        {"a8b8g8r8", {kRgb | kAlphaPixels, 0, 32, {0xFF, 0xFF00, 0xFF0000, 0xFF000000}}, 0xCC336699, Format::RGBA8Unorm, {0.6, 0.4, 0.2, 0.8}},
-        {"r8g8b8a8 high", {kRgb | kAlphaPixels, 0, 32, {0xFF000000, 0xFF0000, 0xFF00, 0xFF}}, 0x336699CC, Format::RGBA8Unorm, {0.2, 0.4, 0.6, 0.8}},
-        {"a2b10g10r10", {kRgb | kAlphaPixels, 0, 32, {0x3FF, 0xFFC00, 0x3FF00000, 0xC0000000}}, (2u << 30) | (1000u << 20) | (33u << 10) | 1,
-         Format::RGBA16Unorm, {1 / 1023.0, 33 / 1023.0, 1000 / 1023.0, 2 / 3.0}},
+        {"a8b8g8r8",
+         {kRgb | kAlphaPixels, 0, 32, {0xFF, 0xFF00, 0xFF0000, 0xFF000000}},
+         0xCC336699,
+         Format::RGBA8Unorm,
+         {0.6, 0.4, 0.2, 0.8}},
+        {"r8g8b8a8 high",
+         {kRgb | kAlphaPixels, 0, 32, {0xFF000000, 0xFF0000, 0xFF00, 0xFF}},
+         0x336699CC,
+         Format::RGBA8Unorm,
+         {0.2, 0.4, 0.6, 0.8}},
+        {"a2b10g10r10",
+         {kRgb | kAlphaPixels, 0, 32, {0x3FF, 0xFFC00, 0x3FF00000, 0xC0000000}},
+         (2u << 30) | (1000u << 20) | (33u << 10) | 1,
+         Format::RGBA16Unorm,
+         {1 / 1023.0, 33 / 1023.0, 1000 / 1023.0, 2 / 3.0}},
         {"g16r16", {kRgb, 0, 32, {0xFFFF, 0xFFFF0000, 0, 0}}, 0x66663333, Format::RG16Unorm, {0.2, 0.4, 0, 1}},
         {"r8", {kRgb, 0, 8, {0xFF, 0, 0, 0}}, 0x33, Format::R8Unorm, {0.2, 0, 0, 1}},
         {"r16", {kRgb, 0, 16, {0xFFFF, 0, 0, 0}}, 0x3333, Format::R16Unorm, {0.2, 0, 0, 1}},
@@ -183,7 +221,8 @@ TEST(Dds, AddressesOddTexelSizesInEveryShape) {
                     for (int x = 0; 4 * x < level_extent(shape.width, level); ++x) {
                         Bytes got(64);
                         source->decode_block(level, slice, x, y, got.data());
-                        ASSERT_TRUE(got == test_files::expected_block(expanded, Format::RGBA8Unorm, level, slice, x, y)) << level << ' ' << slice;
+                        ASSERT_TRUE(got == test_files::expected_block(expanded, Format::RGBA8Unorm, level, slice, x, y))
+                            << level << ' ' << slice;
                     }
                 }
             }
@@ -286,7 +325,8 @@ TEST(Dds, RefusesHeadersThatContradictThemselves) {
     Bytes wide_cube = with(136, 4);
     test_files::put32(wide_cube, 12, 4);
     expect_refusal(wide_cube, "faces are square");
-    Bytes faces = write_legacy_dds(random_image({.width = 4, .height = 4, .layers = 6, .cube = true}, 4, 8, 1), {kFourCc, four_cc("DXT1"), 0, {}});
+    Bytes faces =
+        write_legacy_dds(random_image({.width = 4, .height = 4, .layers = 6, .cube = true}, 4, 8, 1), {kFourCc, four_cc("DXT1"), 0, {}});
     EXPECT_EQ(refusal(faces), "");
     test_files::put32(faces, 112, 0x3E00);
     expect_refusal(faces, "missing faces");
@@ -298,7 +338,8 @@ TEST(Dds, RefusesEveryTruncation) {
     const Bytes good = write_dds(random_image({.width = 9, .height = 5, .layers = 2, .levels = 3}, 4, 8, 9), 71);
     for (size_t length = 0; length < good.size(); ++length) {
         const std::string message = refusal(Bytes(good.begin(), good.begin() + std::ptrdiff_t(length)));
-        ASSERT_NE(message.find(length < 4 ? "is not a DDS file" : "truncated"), std::string::npos) << length << " bytes: \"" << message << '"';
+        ASSERT_NE(message.find(length < 4 ? "is not a DDS file" : "truncated"), std::string::npos)
+            << length << " bytes: \"" << message << '"';
     }
     EXPECT_EQ(refusal(good), "");
 }

@@ -57,7 +57,8 @@ TEST(Formats, StoredBytesRoundBlocksUp) {
                 for (int y = 0; y < height; y += about.block_extent) {
                     for (int x = 0; x < width; x += about.block_extent) ++units;
                 }
-                EXPECT_EQ(stored_bytes(about.format, width, height), units * uint64_t(about.bytes_per_block)) << about.name << ' ' << width << 'x' << height;
+                EXPECT_EQ(stored_bytes(about.format, width, height), units * uint64_t(about.bytes_per_block))
+                    << about.name << ' ' << width << 'x' << height;
             }
         }
     }
@@ -101,7 +102,8 @@ TEST(Layouts, ScaleEveryFieldToTheCorrectlyRoundedQuotient) {
             if (denominator == 0) continue;
             for (int field = l.is_signed ? -denominator : 0; field <= denominator; ++field) {
                 ASSERT_EQ(double(float(field) * l.scale_hi[c]), double(field) * double(l.scale_hi[c])) << about.name << " field " << field;
-                ASSERT_EQ(evaluate(l, c, field), float(double(field) / denominator)) << about.name << " channel " << c << " field " << field;
+                ASSERT_EQ(evaluate(l, c, field), float(double(field) / denominator))
+                    << about.name << " channel " << c << " field " << field;
             }
         }
     }

@@ -41,13 +41,15 @@ struct VulkanCase {
 };
 
 const VulkanCase kVulkanFormats[] = {
-    {9, Format::R8Unorm},       {10, Format::R8Snorm},       {15, Format::R8Srgb},         {16, Format::RG8Unorm},      {17, Format::RG8Snorm},
-    {22, Format::RG8Srgb},      {37, Format::RGBA8Unorm},    {38, Format::RGBA8Snorm},     {43, Format::RGBA8Srgb},     {51, Format::RGBA8Unorm},
-    {70, Format::R16Unorm},     {76, Format::R16Half},       {77, Format::RG16Unorm},      {83, Format::RG16Half},      {91, Format::RGBA16Unorm},
-    {97, Format::RGBA16Half},   {100, Format::R32Float},     {103, Format::RG32Float},     {109, Format::RGBA32Float},  {131, Format::BC1RgbUnorm},
-    {132, Format::BC1RgbSrgb},  {133, Format::BC1RgbaUnorm}, {134, Format::BC1RgbaSrgb},   {135, Format::BC2Unorm},     {136, Format::BC2Srgb},
-    {137, Format::BC3Unorm},    {138, Format::BC3Srgb},      {139, Format::BC4Unorm},      {140, Format::BC4Snorm},     {141, Format::BC5Unorm},
-    {142, Format::BC5Snorm},    {143, Format::BC6HUfloat},   {144, Format::BC6HSfloat},    {145, Format::BC7Unorm},     {146, Format::BC7Srgb},
+    {9, Format::R8Unorm},      {10, Format::R8Snorm},       {15, Format::R8Srgb},       {16, Format::RG8Unorm},
+    {17, Format::RG8Snorm},    {22, Format::RG8Srgb},       {37, Format::RGBA8Unorm},   {38, Format::RGBA8Snorm},
+    {43, Format::RGBA8Srgb},   {51, Format::RGBA8Unorm},    {70, Format::R16Unorm},     {76, Format::R16Half},
+    {77, Format::RG16Unorm},   {83, Format::RG16Half},      {91, Format::RGBA16Unorm},  {97, Format::RGBA16Half},
+    {100, Format::R32Float},   {103, Format::RG32Float},    {109, Format::RGBA32Float}, {131, Format::BC1RgbUnorm},
+    {132, Format::BC1RgbSrgb}, {133, Format::BC1RgbaUnorm}, {134, Format::BC1RgbaSrgb}, {135, Format::BC2Unorm},
+    {136, Format::BC2Srgb},    {137, Format::BC3Unorm},     {138, Format::BC3Srgb},     {139, Format::BC4Unorm},
+    {140, Format::BC4Snorm},   {141, Format::BC5Unorm},     {142, Format::BC5Snorm},    {143, Format::BC6HUfloat},
+    {144, Format::BC6HSfloat}, {145, Format::BC7Unorm},     {146, Format::BC7Srgb},
 };
 
 const Shape kShapes[] = {
@@ -119,15 +121,18 @@ TEST(Ktx2, ReadsLayoutsThatAreNotItsOwn) {
 }
 
 TEST(Ktx2, ReadsThreeChannelsAsFourWithAlphaOne) {
-    const std::pair<uint32_t, Format> formats[] = {
-        {23, Format::RGBA8Unorm}, {24, Format::RGBA8Snorm}, {29, Format::RGBA8Srgb}, {84, Format::RGBA16Unorm}, {90, Format::RGBA16Half}, {106, Format::RGBA32Float}};
+    const std::pair<uint32_t, Format> formats[] = {{23, Format::RGBA8Unorm},  {24, Format::RGBA8Snorm}, {29, Format::RGBA8Srgb},
+                                                   {84, Format::RGBA16Unorm}, {90, Format::RGBA16Half}, {106, Format::RGBA32Float}};
     for (const auto& [code, format] : formats) {
         const int bytes = info(format).bytes_per_block / 4 * 3;
         const StoredImage image = random_image({.width = 5, .height = 3}, 1, bytes, code);
         const auto source = open_bytes(write_ktx2(image, code));
         ASSERT_EQ(source->format(), format);
         StoredImage four = random_image({.width = 5, .height = 3}, 1, info(format).bytes_per_block, 0);
-        const uint32_t one = format == Format::RGBA32Float ? 0x3F800000 : format == Format::RGBA16Half ? 0x3C00 : format == Format::RGBA8Snorm ? 0x7F : 0xFFFF;
+        const uint32_t one = format == Format::RGBA32Float  ? 0x3F800000
+                             : format == Format::RGBA16Half ? 0x3C00
+                             : format == Format::RGBA8Snorm ? 0x7F
+                                                            : 0xFFFF;
         for (int i = 0; i < 15; ++i) {
             std::byte* const to = four.slices[0][0].data() + i * bytes / 3 * 4;
             std::memcpy(to, image.slices[0][0].data() + i * bytes, size_t(bytes));
@@ -190,7 +195,8 @@ TEST(Ktx2, RefusesEveryTruncation) {
         const Bytes good = write_ktx2(random_image({.width = 9, .height = 5, .layers = 2, .levels = 3}, 4, 8, 9), 131, scheme);
         for (size_t length = 0; length < good.size(); ++length) {
             const std::string message = refusal(Bytes(good.begin(), good.begin() + std::ptrdiff_t(length)));
-            ASSERT_NE(message.find(length < 12 ? "is not a KTX2 file" : "truncated"), std::string::npos) << length << " bytes: \"" << message << '"';
+            ASSERT_NE(message.find(length < 12 ? "is not a KTX2 file" : "truncated"), std::string::npos)
+                << length << " bytes: \"" << message << '"';
         }
         EXPECT_EQ(refusal(good), "");
     }
@@ -215,7 +221,7 @@ TEST(Ktx2, ReportsDamagedZstandardLevelsWhenTheyAreRead) {
     const StoredImage image = random_image({.width = 64, .height = 64}, 1, 4, 9);
     const Bytes good = write_ktx2(image, 37, 2);
     EXPECT_EQ(damage(good), "");
-    const size_t offset = 112;   // of the only level: after the header and its index entry, on 16 bytes
+    const size_t offset = 112;  // of the only level: after the header and its index entry, on 16 bytes
     Bytes no_frame = good;
     test_files::put32(no_frame, offset, 0);
     EXPECT_NE(damage(no_frame).find("not a zstd frame"), std::string::npos) << damage(no_frame);

@@ -14,6 +14,7 @@ struct ModePlaces {
     std::string_view places[12];
 };
 
+// clang-format off
 constexpr ModePlaces kModes[kBc6hModeCount] = {
     {{0, true, 2, 10, {5, 5, 5}},
      {"5-14", "15-24", "25-34", "35-39", "45-49", "55-59",
@@ -58,6 +59,7 @@ constexpr ModePlaces kModes[kBc6hModeCount] = {
      {"5-14,44-39", "15-24,54-49", "25-34,64-59", "35-38", "45-48", "55-58",
       "", "", "", "", "", ""}},
 };
+// clang-format on
 
 constexpr int kPartitionPlace = 77;
 

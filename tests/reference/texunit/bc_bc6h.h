@@ -19,10 +19,10 @@ inline constexpr int kBc6hModeCount = 14;
 const Bc6hModeWidths& bc6h_mode(int mode);
 
 struct Bc6hBlockFields {
-    int mode = 0;              ///< 0 to 13; -1: a reserved code
-    int reserved_code = 19;    ///< 19, 23, 27 or 31, where mode is -1
+    int mode = 0;            ///< 0 to 13; -1: a reserved code
+    int reserved_code = 19;  ///< 19, 23, 27 or 31, where mode is -1
     int partition = 0;
-    int code[4][3] = {};       ///< endpoint, channel: unsigned codes as stored
+    int code[4][3] = {};  ///< endpoint, channel: unsigned codes as stored
     int index[16] = {};
 };
 

@@ -17,10 +17,10 @@ struct Bc7Mode {
 const Bc7Mode& bc7_mode(int mode);
 
 struct Bc7Fields {
-    int mode = 0;   ///< 8: the reserved code
+    int mode = 0;  ///< 8: the reserved code
     int partition = 0, rotation = 0, selection = 0;
-    int code[3][2][4] = {};   ///< subset, end, channel
-    int p_bit[3][2] = {};     ///< subset, end; a shared bit is that of end 0
+    int code[3][2][4] = {};  ///< subset, end, channel
+    int p_bit[3][2] = {};    ///< subset, end; a shared bit is that of end 0
     int index[16] = {}, second_index[16] = {};
 };
 
