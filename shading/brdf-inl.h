@@ -17,12 +17,12 @@ namespace HWY_NAMESPACE {
 template <class V>
 struct ShadingPoint {
     Vector3<V> position, normal, geometric_normal, view;
-    V n_dot_v;              ///< at least kMinNdotV
-    V roughness;            ///< perceptual, at least sqrt(kMinAlpha)
-    V alpha2;               ///< alpha^2
-    V smith_view;           ///< sqrt(n.v^2 (1 - alpha^2) + alpha^2)
-    Vector3<V> f0;          ///< reflectance at normal incidence
-    Vector3<V> diffuse;     ///< (1 - metallic) base / pi
+    V n_dot_v;           ///< at least kMinNdotV
+    V roughness;         ///< perceptual, at least sqrt(kMinAlpha)
+    V alpha2;            ///< alpha^2
+    V smith_view;        ///< sqrt(n.v^2 (1 - alpha^2) + alpha^2)
+    Vector3<V> f0;       ///< reflectance at normal incidence
+    Vector3<V> diffuse;  ///< (1 - metallic) base / pi
     V occlusion;
 };
 

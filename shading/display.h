@@ -14,13 +14,13 @@ enum class ToneMap { Aces, Reinhard, None };
 enum class Transfer { Srgb, Sqrt, Linear };
 
 struct DisplayOptions {
-    float exposure = 0.0f;             ///< EV: radiance is multiplied by 2^exposure
+    float exposure = 0.0f;  ///< EV: radiance is multiplied by 2^exposure
     ToneMap tone_map = ToneMap::Aces;
     Transfer transfer = Transfer::Srgb;
 };
 
-std::string_view to_string(ToneMap tone_map);     // aces reinhard none
-std::string_view to_string(Transfer transfer);    // srgb sqrt linear
+std::string_view to_string(ToneMap tone_map);   // aces reinhard none
+std::string_view to_string(Transfer transfer);  // srgb sqrt linear
 std::optional<ToneMap> parse_tone_map(std::string_view text);
 std::optional<Transfer> parse_transfer(std::string_view text);
 

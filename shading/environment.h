@@ -14,7 +14,8 @@ namespace rawtexel::shading {
 /// Lat-long convention: u = 0.5 + atan2(x, -z)/(2 pi), v = acos(y)/pi; the image's centre is -Z, its top +Y.
 class Environment {
   public:
-    /// `latlong`: 3 or 4 channels, linear radiance, width 2:1 height in spirit (any extents work); non-finite and negative values read as 0.
+    /// `latlong`: 3 or 4 channels, linear radiance, width 2:1 height in spirit (any extents work); non-finite and negative values read
+    /// as 0. The same bits for any number of threads and on every instruction set.
     Environment(const Image& latlong, Executor& executor);
 
     /// Radiance from `direction` (unit), bilinear in the image.

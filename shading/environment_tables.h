@@ -17,14 +17,14 @@ inline constexpr int kSpecularLevels = 24;
 /// geometrically: level = 1 + (levels - 2) (r - first) (1 + kBend) / ((r + kBend) (1 - first)); below, level = (r / first)^2.
 struct RoughnessScale {
     static constexpr float kBend = 0.3f;
-    float first = 0.1f;                       ///< roughness of level 1
+    float first = 0.1f;  ///< roughness of level 1
 
-    float roughness_of(int level) const;      ///< 0, first, ..., 1
+    float roughness_of(int level) const;  ///< 0, first, ..., 1
 };
 
 struct Environment::Tables {
     int width = 0, height = 0;
-    std::vector<float> latlong;               ///< RGB interleaved, rows from the top, finite and >= 0
+    std::vector<float> latlong;  ///< RGB interleaved, rows from the top, finite and >= 0
 
     RoughnessScale scale;
     /// Level l is a square of extent[l] + 2 texels a side, one texel of border all around, beginning at texel start[l].

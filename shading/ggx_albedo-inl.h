@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 
 template <class V>
 struct GgxAlbedo {
-    V scale, bias;   ///< reflected share of uniform light: F0 * scale + bias
+    V scale, bias;  ///< reflected share of uniform light: F0 * scale + bias
 };
 
 /// Bilinear in sqrt(n.v) and roughness, both in [0, 1].

@@ -43,40 +43,37 @@ double schlick(double x) {
 }  // namespace
 
 std::array<double, 2> integrate_ggx_albedo(double n_dot_v, double alpha) {
-    // Visible normals of the GGX distribution, Heitz 2018 "Sampling the GGX Distribution of Visible Normals", taken as a quadrature:
-    // radius by Gauss-Legendre, azimuth equidistant (the integrand is symmetric about the plane of incidence).
-    static constexpr int kRadii = 24, kAzimuths = 32;
-    static const GaussLegendre<kRadii> radii;
+    // Visible normals of the GGX distribution, Heitz 2018 "Sampling the GGX Distribution of Visible Normals", taken as a quadrature. A
+    // point of the unit disk is (radius, azimuth); its height h over the disk is the variable, 2 radius dradius = 2 h dh, which gathers
+    // nodes at the rim, where light meets the horizon. Half of the azimuths do: the plane of incidence is a mirror.
+    static constexpr int kHeights = 48, kAzimuths = 12;
+    static const GaussLegendre<kHeights> heights;
     const double nv = std::min(n_dot_v, 1.0), alpha2 = alpha * alpha;
     const double smith_view = std::sqrt(nv * nv * (1.0 - alpha2) + alpha2);
 
     // The view direction in the stretched frame, where the surface is a hemisphere.
     const double view_x = std::sqrt(1.0 - nv * nv);
     const double length = std::hypot(alpha * view_x, nv), stretched_x = alpha * view_x / length, stretched_z = nv / length;
+    const double half_share = 0.5 * (1.0 + stretched_z);
     double scale = 0.0, bias = 0.0;
-    for (int i = 0; i < kRadii; ++i) {
-        const double radius = radii.node[i];
+    for (int i = 0; i < kHeights; ++i) {
+        const double height = heights.node[i], radius = std::sqrt(1.0 - height * height);
         for (int j = 0; j < kAzimuths; ++j) {
-            const double azimuth = std::numbers::pi * (j + 0.5) / kAzimuths;
-            // A point of the unit disk seen along the view, moved so that the hidden half of the hemisphere is left out.
-            const double across = radius * std::cos(azimuth), raised = radius * std::sin(azimuth);
-            for (const double side : {-1.0, 1.0}) {
-                const double half_share = 0.5 * (1.0 + stretched_z);
-                const double t1 = across, t2 = (1.0 - half_share) * std::sqrt(1.0 - t1 * t1) + half_share * side * raised;
-                const double t3 = std::sqrt(std::max(0.0, 1.0 - t1 * t1 - t2 * t2));
-                // t1 runs across the plane of incidence, t2 within it.
-                const double nx = -t2 * stretched_z + t3 * stretched_x, ny = t1, nz = t2 * stretched_x + t3 * stretched_z;
-                const double hx = alpha * nx, hy = alpha * ny, hz = std::max(nz, 0.0), norm = std::sqrt(hx * hx + hy * hy + hz * hz);
-                const double v_dot_h = (view_x * hx + nv * hz) / norm;
-                const double n_dot_l = 2.0 * v_dot_h * hz / norm - nv;
-                if (n_dot_l <= 0.0 || v_dot_h <= 0.0) continue;
-                // Masking of light given masking of view: f n.l / pdf = G2 / G1.
-                const double smith_light = std::sqrt(n_dot_l * n_dot_l * (1.0 - alpha2) + alpha2);
-                const double share = n_dot_l * (nv + smith_view) / (n_dot_l * smith_view + nv * smith_light);
-                const double weight = radii.weight[i] * 2.0 * radius / (2.0 * kAzimuths) * share, fresnel = schlick(v_dot_h);
-                scale += weight * (1.0 - fresnel);
-                bias += weight * fresnel;
-            }
+            const double azimuth = std::numbers::pi * ((j + 0.5) / kAzimuths - 0.5);
+            // Across the plane of incidence and within it, moved so that the hidden half of the hemisphere is left out.
+            const double across = radius * std::cos(azimuth);
+            const double within = (1.0 - half_share) * std::sqrt(1.0 - across * across) + half_share * radius * std::sin(azimuth);
+            const double along = std::sqrt(std::max(0.0, 1.0 - across * across - within * within));
+            const double hx = alpha * (along * stretched_x - within * stretched_z), hy = alpha * across;
+            const double hz = std::max(along * stretched_z + within * stretched_x, 0.0), norm = std::sqrt(hx * hx + hy * hy + hz * hz);
+            const double v_dot_h = (view_x * hx + nv * hz) / norm, n_dot_l = 2.0 * v_dot_h * hz / norm - nv;
+            if (n_dot_l <= 0.0 || v_dot_h <= 0.0) continue;
+            // Masking of light given masking of view: f n.l / density = F G2 / G1.
+            const double smith_light = std::sqrt(n_dot_l * n_dot_l * (1.0 - alpha2) + alpha2);
+            const double share = n_dot_l * (nv + smith_view) / (n_dot_l * smith_view + nv * smith_light);
+            const double weight = heights.weight[i] * 2.0 * height / kAzimuths * share, fresnel = schlick(v_dot_h);
+            scale += weight * (1.0 - fresnel);
+            bias += weight * fresnel;
         }
     }
     return {scale, bias};
@@ -88,7 +85,8 @@ const GgxAlbedoTable& ggx_albedo_table() {
         for (int r = 0; r < GgxAlbedoTable::kRoughnesses; ++r)
             for (int v = 0; v < GgxAlbedoTable::kViews; ++v) {
                 const double view = v / double(GgxAlbedoTable::kViews - 1), roughness = r / double(GgxAlbedoTable::kRoughnesses - 1);
-                const auto albedo = integrate_ggx_albedo(std::max(view * view, double(kMinNdotV)), std::max(roughness * roughness, double(kMinAlpha)));
+                const auto albedo =
+                    integrate_ggx_albedo(std::max(view * view, double(kMinNdotV)), std::max(roughness * roughness, double(kMinAlpha)));
                 const size_t at = size_t(r * GgxAlbedoTable::kViews + v) * 2;
                 made.values[at] = float(albedo[0]);
                 made.values[at + 1] = float(albedo[1]);

@@ -7,8 +7,8 @@ namespace rawtexel::shading {
 
 /// Directional albedo of single-scattering GGX as scale and bias of F0, over sqrt(n.v) and perceptual roughness. See ggx_albedo().
 struct GgxAlbedoTable {
-    static constexpr int kViews = 48, kRoughnesses = 48;
-    std::array<float, kViews * kRoughnesses * 2> values;   ///< (scale, bias) by view + kViews*roughness; both axes run from 0 to 1
+    static constexpr int kViews = 40, kRoughnesses = 40;
+    std::array<float, kViews * kRoughnesses * 2> values;  ///< (scale, bias) by view + kViews*roughness; both axes run from 0 to 1
 };
 
 /// Integrated in double when first asked for, once.

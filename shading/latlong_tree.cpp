@@ -16,7 +16,10 @@ struct LeafAxis {
     int split, merge, cells, nodes;
 
     LeafAxis(int texels, int fewest, int most)
-        : split((fewest + texels - 1) / texels), merge((texels + most - 1) / most), cells(texels * split), nodes((cells + merge - 1) / merge) {}
+        : split((fewest + texels - 1) / texels),
+          merge((texels + most - 1) / most),
+          cells(texels * split),
+          nodes((cells + merge - 1) / merge) {}
 };
 
 /// A sum of light on the way to a node. Black patches keep a direction through a weight that no light notices.
@@ -70,11 +73,12 @@ std::vector<glm::dvec2> cell_azimuths(int cells) {
 /// Moments of the directions in the cells of one row, uniform over the solid angle, in the frame (outwards, along the row, up).
 struct CellRow {
     double solid_angle;
-    double outwards, up;                                   ///< mean direction; none along the row
+    double outwards, up;  ///< mean direction; none along the row
     double var_outwards, var_along, var_up, cov_outwards_up;
 
     CellRow(int row, int rows, int columns) {
-        const double top = std::numbers::pi * row / rows, bottom = std::numbers::pi * (row + 1) / rows, width = 2.0 * std::numbers::pi / columns;
+        const double top = std::numbers::pi * row / rows, bottom = std::numbers::pi * (row + 1) / rows,
+                     width = 2.0 * std::numbers::pi / columns;
         const double y0 = std::cos(top), y1 = std::cos(bottom), s0 = std::sin(top), s1 = std::sin(bottom);
         solid_angle = (y0 - y1) * width;
         // Means over the polar angle: the solid angle is uniform in y.
@@ -120,8 +124,9 @@ struct CellRow {
 
 /// Half the diagonal of a patch between two polar angles that is `azimuth` wide.
 double patch_radius(double polar_top, double polar_bottom, double azimuth) {
-    const double widest = polar_top < 0.5 * std::numbers::pi && polar_bottom > 0.5 * std::numbers::pi ? 1.0
-                                                                                                     : std::max(std::sin(polar_top), std::sin(polar_bottom));
+    const double widest = polar_top < 0.5 * std::numbers::pi && polar_bottom > 0.5 * std::numbers::pi
+                              ? 1.0
+                              : std::max(std::sin(polar_top), std::sin(polar_bottom));
     return 0.5 * std::hypot(polar_bottom - polar_top, azimuth * widest);
 }
 

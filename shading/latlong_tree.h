@@ -19,10 +19,10 @@ struct Covariance {
 /// smooth over the patch, f(n . direction) * flux is right up to the variance of n.l within the patch, which is n^T spread n.
 struct LightNode {
     glm::vec3 direction;
-    float radius;          ///< chord from the patch's centre to its farthest corner, at most
-    glm::vec3 flux;        ///< radiance times solid angle, summed
-    float solid_angle;     ///< steradians
-    Covariance spread;     ///< of the flux's directions about their mean
+    float radius;       ///< chord from the patch's centre to its farthest corner, at most
+    glm::vec3 flux;     ///< radiance times solid angle, summed
+    float solid_angle;  ///< steradians
+    Covariance spread;  ///< of the flux's directions about their mean
 };
 
 /// Nodes of one level, row by row; a node (x, y) has the children (2x, 2y) .. (2x+1, 2y+1) of the finer level, where they exist.

@@ -52,7 +52,8 @@ HWY_INLINE Vector3<V> environment_radiance(D d, const Environment::Tables& table
         const Vector3<V> light = diffuse_radiance(d, tables, p.normal);
         const V entering = hn::Mul(hn::Sub(one, diffuse_fresnel(d, n_dot_v)), hn::Set(d, 3.14159265f));
         const Vector3<V> reflected = mul(p.diffuse, light);
-        const auto diffuse = [&](V f0, V reflected_light) HWY_ATTR { return hn::Mul(hn::Mul(hn::Sub(one, f0), entering), reflected_light); };
+        const auto diffuse = [&](V f0, V reflected_light)
+                                 HWY_ATTR { return hn::Mul(hn::Mul(hn::Sub(one, f0), entering), reflected_light); };
         radiance = add(radiance, {diffuse(p.f0.x, reflected.x), diffuse(p.f0.y, reflected.y), diffuse(p.f0.z, reflected.z)});
     }
     return scale(radiance, p.occlusion);

@@ -18,7 +18,8 @@ void look_around(const Environment& environment, const WaveVector& direction, Wa
 }
 
 /// Specular light of 32 directions and roughnesses.
-void look_specular(const Environment& environment, const WaveVector& direction, const WaveFloat& roughness, WaveMask mask, WaveVector& out) {
+void look_specular(const Environment& environment, const WaveVector& direction, const WaveFloat& roughness, WaveMask mask,
+                   WaveVector& out) {
     const hn::ScalableTag<float> d;
     for (size_t i = 0; i < size_t(texunit::kWaveLanes); i += hn::Lanes(d)) {
         if (!any_active(mask, i, hn::Lanes(d))) continue;

@@ -13,14 +13,15 @@ namespace rawtexel::shading {
 
 struct Lighting {
     std::vector<Light> lights;
-    float ambient = 0.0f;                                  ///< adds ambient * base colour * occlusion
-    std::shared_ptr<const Environment> environment;        ///< null: none
-    /// Shadow of lights[0] when that is directional; null: none. Only the first directional light casts.
+    float ambient = 0.0f;                            ///< adds ambient * base colour * occlusion
+    std::shared_ptr<const Environment> environment;  ///< null: none
+    /// Shadow of the first directional light, the only one that casts; null: none.
     std::shared_ptr<const ShadowMap> shadow;
 };
 
 /// Radiance towards the viewer of the lanes of `mask`: emission, punctual lights, environment, ambient.
 /// glTF 2.0 appendix B: F0 = lerp(0.04, base, metallic); GGX D, height-correlated Smith V, Schlick F; diffuse (1-F)(1-metallic)base/pi.
+/// Occlusion dims ambient and environment. The same bits on every instruction set, and a lane depends on nothing but itself.
 /// The vector form shading/light-inl.h is what the renderer inlines; this door dispatches to it, for tests and tools.
 void shade_surface(const Lighting& lighting, const SurfaceWave& surface, WaveMask mask, WaveVector& radiance);
 

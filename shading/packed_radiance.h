@@ -10,8 +10,8 @@
 namespace rawtexel::shading {
 
 struct PackedRadiance {
-    uint32_t red_green;    ///< red in the top 21 bits, then the top 11 bits of green
-    uint32_t blue_green;   ///< blue in the top 21 bits, a zero, then the low 10 bits of green
+    uint32_t red_green;   ///< red in the top 21 bits, then the top 11 bits of green
+    uint32_t blue_green;  ///< blue in the top 21 bits, a zero, then the low 10 bits of green
     bool operator==(const PackedRadiance&) const = default;
 };
 

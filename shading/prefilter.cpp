@@ -21,8 +21,8 @@ namespace rawtexel::shading {
 inline constexpr int kBlock = 8, kBlockTexels = kBlock * kBlock;
 
 struct OutputBlock {
-    alignas(64) float x[kBlockTexels], y[kBlockTexels], z[kBlockTexels];          ///< directions
-    alignas(64) float red[kBlockTexels], green[kBlockTexels], blue[kBlockTexels]; ///< means
+    alignas(64) float x[kBlockTexels], y[kBlockTexels], z[kBlockTexels];           ///< directions
+    alignas(64) float red[kBlockTexels], green[kBlockTexels], blue[kBlockTexels];  ///< means
 };
 
 }  // namespace rawtexel::shading
@@ -38,8 +38,8 @@ namespace HWY_NAMESPACE {
 inline void gather_block(const LightNode* nodes, size_t count, const LobeKernel& kernel, OutputBlock& block) {
     const hn::ScalableTag<float> d;
     const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f), two = hn::Set(d, 2.0f), three = hn::Set(d, 3.0f);
-    const auto offset = hn::Set(d, float(kernel.offset)), slope = hn::Set(d, float(kernel.slope));
     const auto normalisation = hn::Set(d, float(kernel.normalisation));
+    const auto offset = hn::Set(d, float(kernel.offset)), slope = hn::Set(d, float(kernel.slope));
     for (size_t i = 0; i < size_t(kBlockTexels); i += hn::Lanes(d)) {
         const auto x = hn::Load(d, block.x + i), y = hn::Load(d, block.y + i), z = hn::Load(d, block.z + i);
         const auto xx = hn::Mul(x, x), yy = hn::Mul(y, y), zz = hn::Mul(z, z);
@@ -90,11 +90,14 @@ HWY_EXPORT(add_mirrored);
 namespace {
 
 /// Largest patch that stands for its parts, as a share of the lobe's scale at its distance.
-constexpr float kPatchShare = 0.45f;
+constexpr float kPatchShare = 0.4f;
 /// Lobes wider than kWideAlpha feel their edge at the horizon: patches that straddle it are kept small.
 constexpr float kWideAlpha = 0.2f, kWidePatch = 0.05f;
 /// Texels of a map per lobe, and the least side of a map: a cosine lobe must not show facets.
 constexpr double kTexelsPerLobe = 16.0, kLeastExtent = 96.0;
+
+/// Greatest side of a lobe's map: some texels per texel of small images, fewer for large ones.
+double greatest_extent(int width) { return std::clamp(1.5 * width, kLeastExtent, std::clamp(0.75 * width, 384.0, 1024.0)); }
 
 int whole_blocks(double texels) { return int(std::ceil(texels / kBlock)) * kBlock; }
 
@@ -102,10 +105,7 @@ int whole_blocks(double texels) { return int(std::ceil(texels / kBlock)) * kBloc
 int mirror_extent(int width) { return whole_blocks(std::clamp(width, 64, 2048)); }
 
 /// Side of a lobe's map, texels: as fine as the lobe needs and the image deserves.
-int lobe_extent(double alpha, int width) {
-    const double finest = std::clamp(0.75 * width, kLeastExtent, 1024.0);
-    return whole_blocks(std::clamp(kTexelsPerLobe / alpha, kLeastExtent, finest));
-}
+int lobe_extent(double alpha, int width) { return whole_blocks(std::clamp(kTexelsPerLobe / alpha, kLeastExtent, greatest_extent(width))); }
 
 /// Walks the tree for one block of outputs.
 class PatchSelection {
@@ -149,7 +149,7 @@ class PatchSelection {
 
 struct LevelMap {
     int extent;
-    PackedRadiance* texels;   ///< extent + 2 a side
+    PackedRadiance* texels;  ///< extent + 2 a side
 
     PackedRadiance& at(int x, int y) const { return texels[size_t(y + 1) * size_t(extent + 2) + size_t(x + 1)]; }
     glm::vec3 direction(float x, float y) const { return direction_from_octahedral(glm::vec2(x, y) / float(extent)); }
@@ -214,8 +214,8 @@ void fill_border(const LevelMap& map) {
 LobeKernel::LobeKernel(double alpha) : slope((1.0 - alpha * alpha) / 2.0) {
     // 1 - (1 - a^2)(1 + c)/2 = offset - slope*c; the integral of 2 pi c / (offset - slope*c)^2 over c in [0, 1].
     offset = 1.0 - slope;
-    const double integral = slope < 1e-4 ? 0.5 + slope * 5.0 / 3.0
-                                         : (offset / (offset - slope) - 1.0 + std::log((offset - slope) / offset)) / (slope * slope);
+    const double integral =
+        slope < 1e-4 ? 0.5 + slope * 5.0 / 3.0 : (offset / (offset - slope) - 1.0 + std::log((offset - slope) / offset)) / (slope * slope);
     normalisation = 1.0 / (2.0 * std::numbers::pi * integral);
 }
 
@@ -246,7 +246,9 @@ void prefilter(const Image& latlong, Executor& executor, Environment::Tables& ta
         for (int top = 0; top < extent; top += kBlock) rows.push_back({level, top});
     }
     tables.texels.resize(total);
-    const auto map_of = [&](int level) { return LevelMap{tables.extent[size_t(level)], tables.texels.data() + tables.start[size_t(level)]}; };
+    const auto map_of = [&](int level) {
+        return LevelMap{tables.extent[size_t(level)], tables.texels.data() + tables.start[size_t(level)]};
+    };
 
     executor.parallel_for(int64_t(rows.size()), [&](int64_t index, int) {
         const auto [level, top] = rows[size_t(index)];

@@ -11,7 +11,7 @@ namespace rawtexel::shading {
 /// D(h) n.l / (4 n.h) with (n.h)^2 = (1 + c)/2 is proportional to c / (1 - (1 - a^2)(1 + c)/2)^2; at a = 1 it is c/pi.
 struct LobeKernel {
     explicit LobeKernel(double alpha);
-    double normalisation;   ///< of c / (offset - slope*c)^2
+    double normalisation;  ///< of c / (offset - slope*c)^2
     double offset, slope;
     double density(double cosine) const;
 };

@@ -118,7 +118,7 @@ HWY_INLINE V shadow_visibility_lanes(D d, const ShadowMap& map, const Vector3<V>
     hidden = hidden_row(d, map, plane, columns, hn::Add(rows.first, hn::Set(d, 1.0f)), rows.weight1, hidden);
     hidden = hidden_row(d, map, plane, columns, hn::Add(rows.first, hn::Set(d, 2.0f)), rows.weight2, hidden);
     hidden = hidden_row(d, map, plane, columns, hn::Add(rows.first, hn::Set(d, 3.0f)), rows.weight3, hidden);
-    return hn::IfThenElseZero(facing, hn::Sub(one, hidden));
+    return hn::IfThenElseZero(facing, hn::Max(hn::Sub(one, hidden), zero));
 }
 
 }  // namespace HWY_NAMESPACE

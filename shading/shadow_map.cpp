@@ -63,15 +63,6 @@ ShadowMap make_shadow_frame(const glm::vec3& direction, const glm::vec3& center,
     return map;
 }
 
-glm::mat4 clip_from_world(const ShadowMap& map) {
-    const float scale = 2.0f / float(map.size);
-    glm::mat4 clip_from_map(1.0f);
-    clip_from_map[0][0] = scale;
-    clip_from_map[1][1] = -scale;
-    clip_from_map[3] = glm::vec4(-1.0f, 1.0f, 0.0f, 1.0f);
-    return clip_from_map * map.map_from_world;
-}
-
 float shadow_visibility(const ShadowMap& map, const glm::vec3& position, const glm::vec3& normal) {
     const glm::mat4& m = map.map_from_world;
     const float cosine = row_dot(m, 2, normal) * map.depth_world;
@@ -80,7 +71,8 @@ float shadow_visibility(const ShadowMap& map, const glm::vec3& position, const g
     // The point in the map, the first of its 4x4 texels and their weights.
     const float x = row_dot(m, 0, position) + m[3][0], y = row_dot(m, 1, position) + m[3][1], z = row_dot(m, 2, position) + m[3][2];
     const float limit = float(map.size) + 8.0f;
-    const float column = std::floor(std::min(std::max(x, -8.0f), limit) - 1.5f), row = std::floor(std::min(std::max(y, -8.0f), limit) - 1.5f);
+    const float column = std::floor(std::min(std::max(x, -8.0f), limit) - 1.5f),
+                row = std::floor(std::min(std::max(y, -8.0f), limit) - 1.5f);
     float weight_x[4], weight_y[4];
     tent_weights(column - x, weight_x);
     tent_weights(row - y, weight_y);
@@ -102,7 +94,7 @@ float shadow_visibility(const ShadowMap& map, const glm::vec3& position, const g
             if (stored > std::max(plane, 0.0f)) hidden += weight_x[i] * weight_y[j];
         }
     }
-    return 1.0f - hidden;
+    return std::max(1.0f - hidden, 0.0f);  // the weights add up to 1 within rounding
 }
 
 }  // namespace rawtexel::shading

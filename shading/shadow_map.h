@@ -10,19 +10,16 @@ namespace rawtexel::shading {
 
 /// Depth as raster defines it: 1 nearest to the light, 0 farthest; 0 where nothing casts.
 struct ShadowMap {
-    int size = 0;                         ///< texels along each side
-    std::vector<float> depth;             ///< size x size, row by row from the top; texel (x, y) holds the depth at (x + 0.5, y + 0.5)
-    glm::mat4 map_from_world{1.0f};       ///< (x, y) in texels, z as stored depth
-    float texel_world = 0.0f;             ///< metres covered by one texel
-    float depth_world = 0.0f;             ///< metres between depth 1 and depth 0
+    int size = 0;                    ///< texels along each side
+    std::vector<float> depth;        ///< size x size, row by row from the top; texel (x, y) holds the depth at (x + 0.5, y + 0.5)
+    glm::mat4 map_from_world{1.0f};  ///< (x right, y down) in texels, z as stored depth
+    float texel_world = 0.0f;        ///< metres covered by one texel
+    float depth_world = 0.0f;        ///< metres between depth 1 and depth 0
 };
 
 /// Orthographic frame of a directional light that just holds a sphere, texels square, with room around it for the filter.
 /// `direction` is the way the light travels (unit); a radius of 0 is taken as tiny. Depth is all 0: nothing casts yet.
 ShadowMap make_shadow_frame(const glm::vec3& direction, const glm::vec3& center, float radius, int size);
-
-/// The transform that raster draws the map with: reversed depth, w = 1, +Y up in clip space where the map's rows run down.
-glm::mat4 clip_from_world(const ShadowMap& map);
 
 /// Share of the light that reaches a point of a flat surface through `position` with unit `normal`: 16 depth tests weighted by a tent
 /// three texels wide, integrated over each texel (Reeves et al. 1987). Every test compares with the depth of the *surface's plane* at that
@@ -32,7 +29,7 @@ float shadow_visibility(const ShadowMap& map, const glm::vec3& position, const g
 
 /// A caster hides a point when it is nearer to the light by more than  texel * (constant + slope * tan(angle of incidence)),  which covers
 /// what the rasterizer's vertex grid (1/256 texel) and curved surfaces deviate from the plane, plus the rounding of the stored depth.
-inline constexpr float kShadowConstantBias = 0.1f;
+inline constexpr float kShadowConstantBias = 0.25f;
 inline constexpr float kShadowSlopeBias = 1.0f / 64.0f;
 inline constexpr float kShadowDepthRounding = 5e-7f;
 /// Planes steeper than this cosine of incidence are taken as being at it.

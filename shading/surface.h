@@ -14,15 +14,15 @@ struct WaveVector {
 
 /// Filtered material values and geometry at 32 shading points, world space.
 struct SurfaceWave {
-    WaveVector base_color;      ///< linear, >= 0
-    WaveFloat metallic;         ///< 0..1
-    WaveFloat roughness;        ///< perceptual, 0..1; alpha = roughness^2
-    WaveFloat occlusion;        ///< 1: open
+    WaveVector base_color;  ///< linear, >= 0
+    WaveFloat metallic;     ///< 0..1
+    WaveFloat roughness;    ///< perceptual, 0..1; alpha = roughness^2
+    WaveFloat occlusion;    ///< 1: open
     WaveVector emission;
-    WaveVector position;        ///< metres
-    WaveVector normal;          ///< unit shading normal, on the viewer's side of a double-sided surface
-    WaveVector geometric_normal;///< unit, of the triangle, on the same side
-    WaveVector view;            ///< unit, towards the eye
+    WaveVector position;          ///< metres
+    WaveVector normal;            ///< unit shading normal, on the viewer's side of a double-sided surface
+    WaveVector geometric_normal;  ///< unit, of the triangle, on the same side
+    WaveVector view;              ///< unit, towards the eye
 };
 
 }  // namespace rawtexel::shading

@@ -14,9 +14,7 @@ float held(float value) { return value > 0.0f ? std::min(value, kBrightest) : 0.
 float clamped(float value) { return std::min(std::max(value, 0.0f), 1.0f); }
 
 /// Rational fit of the combined curve: (v (v + a) - b) / (v (c v + d) + e).
-float aces_curve(float v) {
-    return (v * (v + 0.0245786f) - 0.000090537f) / (v * (0.983729f * v + 0.4329510f) + 0.238081f);
-}
+float aces_curve(float v) { return (v * (v + 0.0245786f) - 0.000090537f) / (v * (0.983729f * v + 0.4329510f) + 0.238081f); }
 
 }  // namespace
 
@@ -33,7 +31,9 @@ glm::vec3 tone_map_reinhard(const glm::vec3& c) { return c / (1.0f + c); }
 
 glm::vec3 tone_mapped(const glm::vec3& radiance, float exposure_factor, ToneMap tone_map) {
     const glm::vec3 exposed(held(radiance.r * exposure_factor), held(radiance.g * exposure_factor), held(radiance.b * exposure_factor));
-    const glm::vec3 mapped = tone_map == ToneMap::Aces ? tone_map_aces(exposed) : tone_map == ToneMap::Reinhard ? tone_map_reinhard(exposed) : exposed;
+    const glm::vec3 mapped = tone_map == ToneMap::Aces       ? tone_map_aces(exposed)
+                             : tone_map == ToneMap::Reinhard ? tone_map_reinhard(exposed)
+                                                             : exposed;
     return {clamped(mapped.r), clamped(mapped.g), clamped(mapped.b)};
 }
 

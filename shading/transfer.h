@@ -13,8 +13,8 @@ double encoded(double linear, Transfer transfer);
 /// Its inverse.
 double decoded(double code, Transfer transfer);
 
-/// Exactly rounded 8-bit codes: the greatest k with encoded(linear) >= (k - 0.5)/255. NaN and negative values give 0, values above 1 give 255.
-/// A float's upper bits choose a bucket that holds at most one threshold between codes; one comparison settles the code.
+/// Exactly rounded 8-bit codes: the greatest k with encoded(linear) >= (k - 0.5)/255. NaN and negative values give 0, values above 1 give
+/// 255. A float's upper bits choose a bucket that holds at most one threshold between codes; one comparison settles the code.
 class CodeTable {
   public:
     explicit CodeTable(Transfer transfer);
@@ -24,8 +24,8 @@ class CodeTable {
     float threshold(int k) const { return threshold_[size_t(k)]; }
 
   private:
-    static constexpr int kBucketBits = 15;                       ///< low bits of a float that a bucket spans: 256 buckets an octave
-    static constexpr uint32_t kFirst = 0x36000000u >> kBucketBits;   ///< bucket of 2^-19: below every threshold
+    static constexpr int kBucketBits = 15;                          ///< low bits of a float that a bucket spans: 256 buckets an octave
+    static constexpr uint32_t kFirst = 0x36000000u >> kBucketBits;  ///< bucket of 2^-19: below every threshold
     static constexpr uint32_t kBuckets = (0x3F800000u >> kBucketBits) - kFirst + 1;
 
     std::array<float, 257> threshold_;
