@@ -9,18 +9,17 @@
 namespace rawtexel::raster {
 
 /// e(X, Y) = constant + dx*Y - dy*X at the sample point (X, Y) in 1/512 pixel: twice the signed area to the edge, in units of 1/(256*512)
-/// pixel, less one where the top-left rule (D3D11.3 3.4.2.1) gives the edge to its neighbour: a point is covered where e >= 0.
-/// Vertices lie within 2^23 units of 1/256, sample points within 2^24 of 1/512: |dx|, |dy| <= 2^24 and |e| < 2^51, exact in int64 and in double.
+/// pixel, less one where the top-left rule (D3D11.3, "Top-Left Rule") gives the edge to its neighbour: a point is covered where e >= 0.
+/// Vertices lie within 2^23 units of 1/256, sample points within 2^24 of 1/512: |dx|, |dy| <= 2^24 and |e| < 2^51, exact in int64 and in
+/// double.
 struct Edge {
-    int32_t dx, dy;         ///< from the edge's first vertex to its second, 1/256 pixel
+    int32_t dx, dy;  ///< from the edge's first vertex to its second, 1/256 pixel
     int64_t constant;
 
     int64_t at(int64_t x, int64_t y) const { return constant + (int64_t{dx} * y - int64_t{dy} * x); }
 };
 
-inline bool is_top_left(int32_t dx, int32_t dy) {
-    return dy < 0 || (dy == 0 && dx > 0);
-}
+inline bool is_top_left(int32_t dx, int32_t dy) { return dy < 0 || (dy == 0 && dx > 0); }
 
 /// The edge from vertex `i` to the next one.
 inline Edge edge_of(const SetupTriangle& triangle, int i) {

@@ -15,8 +15,8 @@ namespace rawtexel::raster {
 
 namespace {
 
-constexpr uint64_t kBatchTriangles = 4096;     ///< set up by one task; enough to outweigh starting it
-constexpr uint64_t kMaxBinRanges = 64;         ///< bounds the bins' counters, one per range and tile
+constexpr uint64_t kBatchTriangles = 4096;  ///< set up by one task; enough to outweigh starting it
+constexpr uint64_t kMaxBinRanges = 64;      ///< bounds the bins' counters, one per range and tile
 
 /// The draws in the order of their setup indices, opaque first, each class in scene order, as one long run of triangles.
 class TriangleRun {
@@ -60,9 +60,7 @@ void set_up_part(const Draw& draw, uint32_t draw_index, uint32_t first, uint32_t
     }
 }
 
-uint64_t divide_up(uint64_t a, uint64_t b) {
-    return (a + b - 1) / b;
-}
+uint64_t divide_up(uint64_t a, uint64_t b) { return (a + b - 1) / b; }
 
 /// Appends the batches in their order: the sizes first, then all copies in parallel.
 void join(std::vector<SetupBatch>& batches, const ParallelFor& parallel_for, std::vector<SetupTriangle>& triangles,
@@ -123,8 +121,10 @@ void Frame::set_up(std::span<const Draw> draws, const ParallelFor& parallel_for)
     const TriangleRun run(draws);
     std::vector<SetupBatch> batches(divide_up(run.size(), kBatchTriangles));
     parallel_for(int64_t(batches.size()), [&](int64_t i) {
-        TriangleSetup setup(grid, batches[size_t(i)]);
+        SetupBatch& batch = batches[size_t(i)];
+        TriangleSetup setup(grid, batch);
         const uint64_t begin = uint64_t(i) * kBatchTriangles, end = std::min(begin + kBatchTriangles, run.size());
+        batch.triangles.reserve(size_t(end - begin));
         run.for_each_part(begin, end, [&](uint32_t draw, uint32_t first, uint32_t last) {
             set_up_part(draws[draw], draw, first, last, options_, setup);
         });

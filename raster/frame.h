@@ -24,14 +24,14 @@ enum class CullMode : uint8_t { None, Back };
 
 /// One indexed triangle list with one transform. The memory is the caller's and outlives the frame.
 struct Draw {
-    const glm::vec3* positions = nullptr;     ///< object space
+    const glm::vec3* positions = nullptr;  ///< object space
     uint32_t vertex_count = 0;
-    const uint32_t* indices = nullptr;        ///< 3 per triangle, each < vertex_count (asserted)
+    const uint32_t* indices = nullptr;  ///< 3 per triangle, each < vertex_count (asserted)
     uint32_t triangle_count = 0;
     /// Clip space as Vulkan's but y up: x_clip/w_clip is -1 at the left and 1 at the right, y_clip/w_clip 1 at the top and -1 at the
     /// bottom. Reversed depth: z_clip/w_clip is 1 at the near plane and falls to 0 far away. Visible is 0 <= z_clip <= w_clip.
     glm::mat4 clip_from_object{1.0f};
-    uint32_t first_triangle_id = 0;           ///< scene-order id of the first triangle; ids of a frame are distinct
+    uint32_t first_triangle_id = 0;  ///< scene-order id of the first triangle; ids of a frame are distinct
     CoverageClass coverage = CoverageClass::Opaque;
     CullMode cull = CullMode::Back;
     /// Front faces are counter-clockwise as seen on the screen; clockwise when the transform mirrors (odd negative scale).
@@ -39,25 +39,26 @@ struct Draw {
 };
 
 struct FrameOptions {
-    int width = 0, height = 0;                ///< pixels of the whole frame, 1..16384
-    int crop_x = 0, crop_y = 0, crop_width = 0, crop_height = 0;   ///< only tiles that touch it are binned; zero extents mean the whole frame
-    int tile_size = 64;                       ///< pixels, a multiple of 8; tiles are aligned to the whole frame whatever the crop
+    int width = 0, height = 0;  ///< pixels of the whole frame, 1..16384
+    /// Only tiles that touch it are binned; zero extents mean the whole frame.
+    int crop_x = 0, crop_y = 0, crop_width = 0, crop_height = 0;
+    int tile_size = 64;  ///< pixels, a multiple of 8; tiles are aligned to the whole frame whatever the crop
     /// Farthest a sample point lies from its pixel's centre along one axis, pixels. Conservative tests are widened by it.
     float filter_radius = 0.0f;
 };
 
-/// Every triangle has exactly one fate: triangles = culled_frustum + culled_backface + culled_degenerate + culled_small + culled_nonfinite + binned.
+/// Every triangle has exactly one fate: it is binned, or culled for one of five reasons.
 struct FrameCounts {
     uint64_t triangles = 0;
-    uint64_t culled_frustum = 0;              ///< outside the view volume, or reaching no sample point of a tile that touches the crop
+    uint64_t culled_frustum = 0;  ///< outside the view volume, or reaching no sample point of a tile that touches the crop
     uint64_t culled_backface = 0;
-    uint64_t culled_degenerate = 0;           ///< no area once snapped
-    uint64_t culled_small = 0;                ///< between the sample points
-    uint64_t culled_nonfinite = 0;            ///< a vertex was NaN or infinite after the transform
-    uint64_t binned = 0;                      ///< reached a bin, whole or in pieces
-    uint64_t clipped = 0;                     ///< triangles that a plane cut and that were not culled as frustum; not a fate
-    uint64_t tiles = 0, tiles_empty = 0;      ///< of the tiles that touch the crop
-    uint64_t hiz_rejected = 0;                ///< 8x8 blocks of triangles that the tile's depth hid (summed by who draws the tiles)
+    uint64_t culled_degenerate = 0;       ///< no area once snapped
+    uint64_t culled_small = 0;            ///< between the sample points
+    uint64_t culled_nonfinite = 0;        ///< a vertex was NaN or infinite after the transform
+    uint64_t binned = 0;                  ///< reached a bin, whole or in pieces
+    uint64_t clipped = 0;                 ///< triangles that a plane cut and that something was left of; not a fate
+    uint64_t tiles = 0, tiles_empty = 0;  ///< of the tiles that touch the crop
+    uint64_t hiz_rejected = 0;            ///< 8x8 blocks of triangles that the tile's depth hid (summed by who draws the tiles)
     FrameCounts& operator+=(const FrameCounts&);
 };
 
@@ -67,8 +68,9 @@ struct Plane {
     double at(double x, double y) const { return c + (a * x + b * y); }
 };
 
-/// A triangle ready for coverage: a whole triangle, or one piece of a triangle that a plane cut.
-struct SetupTriangle {
+/// A triangle ready for coverage: a whole triangle, or one piece of a triangle that a plane cut. What coverage and depth need fills the
+/// first cache line.
+struct alignas(64) SetupTriangle {
     /// Snapped screen positions, 1/256 pixel, ordered so that (x1-x0)(y2-y0) - (x2-x0)(y1-y0) > 0. Triangles with the same
     /// three clip positions have the same order here, and so the same depth bits, in whatever order they were given.
     int32_t x[3], y[3];
@@ -76,16 +78,16 @@ struct SetupTriangle {
     /// float, clamped to [depth_min, depth_max], the range of the vertices. 1 near, falling with distance.
     double depth_at_origin, depth_dx, depth_dy;
     float depth_min, depth_max;
-    /// Of a whole triangle: 1/w of its vertices, by corner.
+    uint32_t triangle_id;  ///< scene order
+    CoverageClass coverage;
+    bool front_facing;
+    uint8_t corner[3];   ///< of a whole triangle: which corner of the primitive is at x[i], y[i]
+    uint32_t draw;       ///< index into the draws
+    uint32_t primitive;  ///< triangle within the draw; its vertices are indices[3*primitive + corner]
+    /// Of a whole triangle: 1/w of its vertices, in the order of x and y.
     std::array<double, 3> inverse_w;
     /// Of a piece: b/w of the three corners as planes, in memory of the frame. Null for a whole triangle, whose planes follow from x and y.
     const std::array<Plane, 3>* bary_over_w;
-    uint32_t triangle_id;     ///< scene order
-    uint32_t draw;            ///< index into the draws
-    uint32_t primitive;       ///< triangle within the draw; its vertices are indices[3*primitive + corner]
-    uint8_t corner[3];        ///< of a whole triangle: which corner of the primitive is at x[i], y[i]
-    CoverageClass coverage;
-    bool front_facing;
 };
 
 inline constexpr uint32_t kNoTriangle = 0xFFFFFFFFu;

@@ -23,10 +23,22 @@ namespace hn = hwy::HWY_NAMESPACE;
 class BroadcastPlanes {
   public:
     explicit BroadcastPlanes(const SetupTriangle& triangle) : planes_(interpolation_planes(triangle)) {}
-    template <class D> auto a(D d, int i, size_t) const { return hn::Set(d, planes_.plane[i].a); }
-    template <class D> auto b(D d, int i, size_t) const { return hn::Set(d, planes_.plane[i].b); }
-    template <class D> auto c(D d, int i, size_t) const { return hn::Set(d, planes_.plane[i].c); }
-    template <class D> auto scale(D d, int i, size_t) const { return hn::Set(d, planes_.scale[i]); }
+    template <class D>
+    auto a(D d, int i, size_t) const {
+        return hn::Set(d, planes_.plane[i].a);
+    }
+    template <class D>
+    auto b(D d, int i, size_t) const {
+        return hn::Set(d, planes_.plane[i].b);
+    }
+    template <class D>
+    auto c(D d, int i, size_t) const {
+        return hn::Set(d, planes_.plane[i].c);
+    }
+    template <class D>
+    auto scale(D d, int i, size_t) const {
+        return hn::Set(d, planes_.scale[i]);
+    }
 
   private:
     InterpolationPlanes planes_;
@@ -51,10 +63,22 @@ class PlanesByLane {
             }
         }
     }
-    template <class D> auto a(D d, int i, size_t lane) const { return hn::Load(d, a_[i] + lane); }
-    template <class D> auto b(D d, int i, size_t lane) const { return hn::Load(d, b_[i] + lane); }
-    template <class D> auto c(D d, int i, size_t lane) const { return hn::Load(d, c_[i] + lane); }
-    template <class D> auto scale(D d, int i, size_t lane) const { return hn::Load(d, scale_[i] + lane); }
+    template <class D>
+    auto a(D d, int i, size_t lane) const {
+        return hn::Load(d, a_[i] + lane);
+    }
+    template <class D>
+    auto b(D d, int i, size_t lane) const {
+        return hn::Load(d, b_[i] + lane);
+    }
+    template <class D>
+    auto c(D d, int i, size_t lane) const {
+        return hn::Load(d, c_[i] + lane);
+    }
+    template <class D>
+    auto scale(D d, int i, size_t lane) const {
+        return hn::Load(d, scale_[i] + lane);
+    }
 
   private:
     alignas(64) double a_[3][32], b_[3][32], c_[3][32], scale_[3][32];
@@ -101,8 +125,8 @@ HWY_INLINE void clear_other_lanes(uint32_t mask, BarycentricWave& out) {
 
 /// Barycentrics of the lanes of `mask` in the 8x4 block whose upper left pixel is (x, y): lane i lies in setup triangle setup_index[i], at
 /// offset[i] from its pixel's corner. Lanes outside the mask are left zero.
-HWY_ATTR inline void barycentric_wave(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y, uint32_t mask,
-                                      BarycentricWave& out) {
+HWY_ATTR inline void barycentric_wave(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y,
+                                      uint32_t mask, BarycentricWave& out) {
     if (mask == 0) {
         out = {};
         return;

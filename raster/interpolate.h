@@ -7,7 +7,7 @@ namespace rawtexel::raster {
 
 /// At one sample point: weights of vertices 0, 1, 2 (sum 1) and their change per pixel right (dx) and down (dy).
 /// An attribute is f = f0 + b1*(f1 - f0) + b2*(f2 - f0); its derivative follows from db1, db2 in the same way.
-/// Vulkan 27.10 "f = sum(b_i f_i / w_i) / sum(b_i / w_i)".
+/// Vulkan, "Basic Polygon Rasterization": f = sum(b_i f_i / w_i) / sum(b_i / w_i).
 struct Barycentrics {
     double b1, b2;
     double db1_dx, db2_dx, db1_dy, db2_dy;
@@ -24,7 +24,7 @@ Barycentrics barycentrics(const SetupTriangle& triangle, double x, double y);
 struct InterpolationPlanes {
     Plane plane[3];
     double scale[3];
-    double inverse_area;    ///< the common factor
+    double inverse_area;  ///< the common factor
 };
 InterpolationPlanes interpolation_planes(const SetupTriangle& triangle);
 

@@ -33,9 +33,7 @@ Plane cross(const ScreenVertex& p, const ScreenVertex& q) {
             difference_of_products(p.x, q.y, p.y, q.x)};
 }
 
-bool is_finite(const Plane& plane) {
-    return std::isfinite(plane.a) && std::isfinite(plane.b) && std::isfinite(plane.c);
-}
+bool is_finite(const Plane& plane) { return std::isfinite(plane.a) && std::isfinite(plane.b) && std::isfinite(plane.c); }
 
 }  // namespace
 
@@ -50,8 +48,8 @@ HomogeneousPlanes homogeneous_planes(const std::array<ScreenVertex, 3>& vertex, 
         planes.depth.c += plane.c * vertex[i].z;
     }
     // Any weight that is not finite makes the depth not finite either, unless all z are 0, so both are looked at.
-    const bool usable = is_finite(planes.depth) && is_finite(planes.bary_over_w[0]) && is_finite(planes.bary_over_w[1]) &&
-                        is_finite(planes.bary_over_w[2]);
+    const bool usable =
+        is_finite(planes.depth) && is_finite(planes.bary_over_w[0]) && is_finite(planes.bary_over_w[1]) && is_finite(planes.bary_over_w[2]);
     if (!usable) {
         planes.bary_over_w.fill({0.0, 0.0, 1.0 / 3.0});
         planes.depth = {0.0, 0.0, fallback_depth};

@@ -8,12 +8,12 @@
 namespace rawtexel::raster {
 
 struct HomogeneousPlanes {
-    std::array<Plane, 3> bary_over_w;   ///< b_i/w
-    Plane depth;                        ///< z/w
+    std::array<Plane, 3> bary_over_w;  ///< b_i/w
+    Plane depth;                       ///< z/w
 };
 
-/// The rows of the inverse of the matrix of (x, y, w). A triangle seen edge-on has none: its weights are then 1/3 and its depth `fallback_depth`
-/// everywhere, so that it still closes the seam between its neighbours.
+/// The rows of the inverse of the matrix of (x, y, w). A triangle seen edge-on has none: its weights are then 1/3 and its depth
+/// `fallback_depth` everywhere, so that it still closes the seam between its neighbours.
 HomogeneousPlanes homogeneous_planes(const std::array<ScreenVertex, 3>& vertex, double fallback_depth);
 
 }  // namespace rawtexel::raster

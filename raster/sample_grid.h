@@ -5,13 +5,13 @@
 
 namespace rawtexel::raster {
 
-inline constexpr int kSubpixelBits = 8;          ///< vertices: 24.8
+inline constexpr int kSubpixelBits = 8;  ///< vertices: 24.8
 inline constexpr int kSubpixelOne = 1 << kSubpixelBits;
-inline constexpr int kSampleBits = 9;            ///< sample points: 1/512 pixel
+inline constexpr int kSampleBits = 9;  ///< sample points: 1/512 pixel
 inline constexpr int kSampleOne = 1 << kSampleBits;
-inline constexpr int kGuardBand = 1 << 15;       ///< pixels: vertices lie within [-kGuardBand, kGuardBand] after clipping
-inline constexpr int kBlockWidth = 8, kBlockHeight = 4;   ///< coverage and shading block, 32 pixels
-inline constexpr int kMaxFrameExtent = 16384;    ///< pixels along a side of the frame
+inline constexpr int kGuardBand = 1 << 15;               ///< pixels: vertices lie within [-kGuardBand, kGuardBand] after clipping
+inline constexpr int kBlockWidth = 8, kBlockHeight = 4;  ///< coverage and shading block, 32 pixels
+inline constexpr int kMaxFrameExtent = 16384;            ///< pixels along a side of the frame
 
 /// Where a pixel is sampled: offset of the sample point from the pixel's upper left corner, in 1/512 pixel.
 /// The centre is (256, 256). Offsets may leave [0, 512) by the support of the pixel filter.

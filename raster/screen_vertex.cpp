@@ -16,9 +16,7 @@ int32_t snap_coordinate(double pixels) {
 
 }  // namespace
 
-SnappedPosition snap(const ScreenVertex& v) {
-    return {snap_coordinate(v.x / v.w), snap_coordinate(v.y / v.w)};
-}
+SnappedPosition snap(const ScreenVertex& v) { return {snap_coordinate(v.x / v.w), snap_coordinate(v.y / v.w)}; }
 
 VertexTransform::VertexTransform(const Draw& draw, const FrameOptions& options)
     : positions_(draw.positions), half_width_(0.5 * options.width), half_height_(0.5 * options.height) {

@@ -23,7 +23,7 @@ struct SnappedPosition {
     int32_t x, y;
 };
 
-/// To 1/256 pixel, nearest, ties to even (D3D11.3 3.2.4.1). The vertex lies in the view volume's guard band.
+/// To 1/256 pixel, nearest, ties to even (D3D11.3, "Coordinate Snapping"). The vertex lies in the view volume's guard band.
 SnappedPosition snap(const ScreenVertex& v);
 
 /// Object space to homogeneous pixels: the same bits for the same position and matrix, whatever the triangle.
@@ -34,8 +34,8 @@ class VertexTransform {
 
   private:
     const glm::vec3* positions_;
-    double matrix_[4][4];                   ///< columns, as in GLM
-    double half_width_, half_height_;       ///< pixels
+    double matrix_[4][4];              ///< columns, as in GLM
+    double half_width_, half_height_;  ///< pixels
 };
 
 /// Remembers the vertices transformed last, which the triangles of a mesh ask for again and again.

@@ -9,9 +9,7 @@ namespace {
 
 constexpr int64_t kCentre = kSampleOne / 2;
 
-int64_t floor_divide(int64_t a, int64_t b) {
-    return a >= 0 ? a / b : -((b - 1 - a) / b);
-}
+int64_t floor_divide(int64_t a, int64_t b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
 /// Whether some pixel's range of sample points along one axis, centre +- radius, meets [low, high].
 bool meets_samples(int64_t low, int64_t high, int64_t radius) {
@@ -21,8 +19,7 @@ bool meets_samples(int64_t low, int64_t high, int64_t radius) {
 
 }  // namespace
 
-TileGrid::TileGrid(const FrameOptions& options)
-    : tile_size_(options.tile_size), width_(options.width), height_(options.height) {
+TileGrid::TileGrid(const FrameOptions& options) : tile_size_(options.tile_size), width_(options.width), height_(options.height) {
     assert(width_ >= 1 && width_ <= kMaxFrameExtent && height_ >= 1 && height_ <= kMaxFrameExtent);
     assert(tile_size_ > 0 && tile_size_ % kBlockWidth == 0);
     assert(options.filter_radius >= 0.0f && options.filter_radius <= 16.0f);

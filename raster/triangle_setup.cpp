@@ -1,7 +1,5 @@
 #include "raster/triangle_setup.h"
 
-#include "raster/interpolation_planes.h"
-
 #include <algorithm>
 #include <tuple>
 
@@ -17,17 +15,6 @@ int64_t doubled_area(const SnappedPosition& p, const SnappedPosition& q, const S
 double depth_of(const ScreenVertex& v) {
     // Adding zero turns -0 into 0.
     return std::clamp(v.z / v.w, 0.0, 1.0) + 0.0;
-}
-
-SampleBox bounds_of(std::span<const SnappedPosition> positions) {
-    SampleBox box{2 * int64_t{positions[0].x}, 2 * int64_t{positions[0].x}, 2 * int64_t{positions[0].y}, 2 * int64_t{positions[0].y}};
-    for (const SnappedPosition& p : positions) {
-        box.x_min = std::min(box.x_min, 2 * int64_t{p.x});
-        box.x_max = std::max(box.x_max, 2 * int64_t{p.x});
-        box.y_min = std::min(box.y_min, 2 * int64_t{p.y});
-        box.y_max = std::max(box.y_max, 2 * int64_t{p.y});
-    }
-    return box;
 }
 
 bool disjoint(const SampleBox& a, const SampleBox& b) {
@@ -51,13 +38,9 @@ void set_depth_range(SetupTriangle& triangle, const std::array<double, 3>& depth
     triangle.depth_max = float(high);
 }
 
-/// Positions and everything else that whole triangles and pieces have in common.
-SetupTriangle make_triangle(const std::array<SnappedPosition, 3>& position, const TriangleOrigin& origin, bool front_facing) {
+/// What whole triangles and pieces have in common.
+SetupTriangle make_triangle(const TriangleOrigin& origin, bool front_facing) {
     SetupTriangle triangle{};
-    for (size_t i = 0; i < 3; ++i) {
-        triangle.x[i] = position[i].x;
-        triangle.y[i] = position[i].y;
-    }
     triangle.triangle_id = origin.triangle_id;
     triangle.draw = origin.draw;
     triangle.primitive = origin.primitive;
@@ -66,36 +49,40 @@ SetupTriangle make_triangle(const std::array<SnappedPosition, 3>& position, cons
     return triangle;
 }
 
-}  // namespace
-
-void TriangleSetup::add(const std::array<ScreenVertex, 3>& corners, const TriangleOrigin& origin) {
-    ++batch_.counts.triangles;
-    count(classify(corners, origin));
-}
-
-void TriangleSetup::count(Fate fate) {
-    FrameCounts& counts = batch_.counts;
-    switch (fate) {
-        case Fate::Frustum: ++counts.culled_frustum; break;
-        case Fate::Backface: ++counts.culled_backface; break;
-        case Fate::Degenerate: ++counts.culled_degenerate; break;
-        case Fate::Small: ++counts.culled_small; break;
-        case Fate::Nonfinite: ++counts.culled_nonfinite; break;
-        case Fate::Binned: ++counts.binned; break;
+void set_positions(SetupTriangle& triangle, const SnappedPolygon& snapped, const std::array<size_t, 3>& index) {
+    for (size_t i = 0; i < 3; ++i) {
+        triangle.x[i] = snapped.position[index[i]].x;
+        triangle.y[i] = snapped.position[index[i]].y;
     }
 }
 
+}  // namespace
+
+SnappedPolygon::SnappedPolygon(std::span<const ScreenVertex> vertices) : size(vertices.size()) {
+    std::transform(vertices.begin(), vertices.end(), position.begin(), snap);
+    for (size_t i = 1; i + 1 < size; ++i) doubled_area += rawtexel::raster::doubled_area(position[0], position[i], position[i + 1]);
+    const auto [x_min, x_max] = std::minmax_element(position.begin(), position.begin() + size, [](auto& p, auto& q) { return p.x < q.x; });
+    const auto [y_min, y_max] = std::minmax_element(position.begin(), position.begin() + size, [](auto& p, auto& q) { return p.y < q.y; });
+    box = {2 * int64_t{x_min->x}, 2 * int64_t{x_max->x}, 2 * int64_t{y_min->y}, 2 * int64_t{y_max->y}};
+}
+
+void TriangleSetup::add(const std::array<ScreenVertex, 3>& corners, const TriangleOrigin& origin) {
+    const Fate fate = classify(corners, origin);
+    ++batch_.counts.triangles;
+    ++(batch_.counts.*fate);
+}
+
 TriangleSetup::Fate TriangleSetup::classify(const std::array<ScreenVertex, 3>& corners, const TriangleOrigin& origin) {
-    if (!std::all_of(corners.begin(), corners.end(), is_finite)) return Fate::Nonfinite;
+    if (!std::all_of(corners.begin(), corners.end(), is_finite)) return &FrameCounts::culled_nonfinite;
     const uint32_t outside[3] = {outside_planes(corners[0]), outside_planes(corners[1]), outside_planes(corners[2])};
-    if ((outside[0] & outside[1] & outside[2]) != 0 || outside_samples(corners)) return Fate::Frustum;
+    if ((outside[0] & outside[1] & outside[2]) != 0 || outside_samples(corners)) return &FrameCounts::culled_frustum;
 
     const Ordered ordered = order(corners);
     const uint32_t crossing = outside[0] | outside[1] | outside[2];
     if (crossing == 0) return add_polygon(ordered.vertex, ordered, origin, true);
     ClipPolygon polygon(ordered.vertex);
     polygon.clip(crossing);
-    if (polygon.vertices().empty()) return Fate::Frustum;
+    if (polygon.vertices().empty()) return &FrameCounts::culled_frustum;
     ++batch_.counts.clipped;
     return add_polygon(polygon.vertices(), ordered, origin, false);
 }
@@ -129,61 +116,81 @@ TriangleSetup::Ordered TriangleSetup::order(const std::array<ScreenVertex, 3>& c
 
 TriangleSetup::Fate TriangleSetup::add_polygon(std::span<const ScreenVertex> polygon, const Ordered& ordered, const TriangleOrigin& origin,
                                                bool whole) {
-    std::array<SnappedPosition, ClipPolygon::kCapacity> snapped_storage;
-    const std::span<SnappedPosition> snapped(snapped_storage.data(), polygon.size());
-    std::transform(polygon.begin(), polygon.end(), snapped.begin(), snap);
-
-    // The polygon's own area decides facing; pieces that snapping has turned over lie doubled on others and are left out.
-    int64_t area = 0;
-    for (size_t i = 1; i + 1 < snapped.size(); ++i) area += doubled_area(snapped[0], snapped[i], snapped[i + 1]);
-    if (area == 0) return Fate::Degenerate;
-    const bool clockwise = (area > 0) != ordered.odd;
+    const SnappedPolygon snapped(polygon);
+    if (snapped.doubled_area == 0) return &FrameCounts::culled_degenerate;
+    const bool clockwise = (snapped.doubled_area > 0) != ordered.odd;
     const bool front_facing = clockwise == origin.front_is_clockwise;
-    if (!front_facing && origin.cull == CullMode::Back) return Fate::Backface;
-    const SampleBox box = bounds_of(snapped);
-    if (disjoint(box, grid_.sample_box())) return Fate::Frustum;
-    if (!grid_.may_hold_sample(box)) return Fate::Small;
+    if (!front_facing && origin.cull == CullMode::Back) return &FrameCounts::culled_backface;
+    if (disjoint(snapped.box, grid_.sample_box())) return &FrameCounts::culled_frustum;
+    if (!grid_.may_hold_sample(snapped.box)) return &FrameCounts::culled_small;
 
-    HomogeneousPlanes planes{};
-    if (!whole) planes = homogeneous_planes(ordered.vertex, depth_of(polygon[0]));
-    bool reaches_a_tile = false;
     const size_t first = batch_.triangles.size();
-    for (size_t i = 1; i + 1 < snapped.size(); ++i) {
-        const int64_t piece_area = doubled_area(snapped[0], snapped[i], snapped[i + 1]);
-        if (piece_area == 0 || (piece_area > 0) != (area > 0)) continue;
-        // Positive winding; the canonical order of equal triangles turns the same way, so they stay equal.
-        const size_t second = area > 0 ? i : i + 1, third = area > 0 ? i + 1 : i;
-        SetupTriangle triangle = make_triangle({snapped[0], snapped[second], snapped[third]}, origin, front_facing);
-        const std::array<double, 3> depth = {depth_of(polygon[0]), depth_of(polygon[second]), depth_of(polygon[third])};
-        set_depth_range(triangle, depth);
-        if (whole) {
-            set_depth_plane(triangle, depth);
-            const size_t index[3] = {0, second, third};
-            for (size_t k = 0; k < 3; ++k) {
-                triangle.inverse_w[k] = 1.0 / polygon[index[k]].w;
-                triangle.corner[k] = ordered.corner[index[k]];
-            }
-        } else {
-            triangle.depth_dx = planes.depth.a;
-            triangle.depth_dy = planes.depth.b;
-            triangle.depth_at_origin = planes.depth.at(double(triangle.x[0]) / kSubpixelOne, double(triangle.y[0]) / kSubpixelOne);
-        }
-        grid_.for_each_touched(triangle, [&](size_t) { return !(reaches_a_tile = true); });
-        batch_.triangles.push_back(triangle);
+    const SetupTriangle triangle = make_triangle(origin, front_facing);
+    HomogeneousPlanes planes;
+    if (whole) {
+        add_whole(snapped, ordered, triangle);
+    } else {
+        planes = homogeneous_planes(ordered.vertex, depth_of(polygon[0]));
+        add_pieces(polygon, snapped, planes, triangle);
     }
-    if (!reaches_a_tile) {
+    if (!reaches_a_tile(first)) {
         batch_.triangles.resize(first);
-        return Fate::Frustum;
+        return &FrameCounts::culled_frustum;
     }
-    if (!whole) {
-        std::array<Plane, 3> by_corner;
-        for (size_t k = 0; k < 3; ++k) by_corner[ordered.corner[k]] = planes.bary_over_w[k];
-        for (size_t t = first; t < batch_.triangles.size(); ++t) {
-            batch_.links.push_back({uint32_t(t), uint32_t(batch_.piece_planes.size())});
-        }
-        batch_.piece_planes.push_back(by_corner);
+    if (!whole) link_planes(first, planes, ordered);
+    return &FrameCounts::binned;
+}
+
+void TriangleSetup::add_whole(const SnappedPolygon& snapped, const Ordered& ordered, const SetupTriangle& common) {
+    // Positive winding. Triangles of the same three vertices turn the same way in their canonical order, so they stay alike.
+    const std::array<size_t, 3> index = snapped.doubled_area > 0 ? std::array<size_t, 3>{0, 1, 2} : std::array<size_t, 3>{0, 2, 1};
+    SetupTriangle& triangle = batch_.triangles.emplace_back(common);
+    set_positions(triangle, snapped, index);
+    std::array<double, 3> depth;
+    for (size_t i = 0; i < 3; ++i) {
+        const ScreenVertex& v = ordered.vertex[index[i]];
+        depth[i] = depth_of(v);
+        triangle.inverse_w[i] = 1.0 / v.w;
+        triangle.corner[i] = ordered.corner[index[i]];
     }
-    return Fate::Binned;
+    set_depth_range(triangle, depth);
+    set_depth_plane(triangle, depth);
+}
+
+void TriangleSetup::add_pieces(std::span<const ScreenVertex> polygon, const SnappedPolygon& snapped, const HomogeneousPlanes& planes,
+                               const SetupTriangle& common) {
+    const bool positive = snapped.doubled_area > 0;
+    for (size_t i = 1; i + 1 < snapped.size; ++i) {
+        const int64_t area = doubled_area(snapped.position[0], snapped.position[i], snapped.position[i + 1]);
+        // A piece that snapping has turned over lies doubled on the others.
+        if (area == 0 || (area > 0) != positive) continue;
+        const std::array<size_t, 3> index = positive ? std::array<size_t, 3>{0, i, i + 1} : std::array<size_t, 3>{0, i + 1, i};
+        SetupTriangle& piece = batch_.triangles.emplace_back(common);
+        set_positions(piece, snapped, index);
+        set_depth_range(piece, {depth_of(polygon[index[0]]), depth_of(polygon[index[1]]), depth_of(polygon[index[2]])});
+        piece.depth_dx = planes.depth.a;
+        piece.depth_dy = planes.depth.b;
+        piece.depth_at_origin = planes.depth.at(double(piece.x[0]) / kSubpixelOne, double(piece.y[0]) / kSubpixelOne);
+    }
+}
+
+void TriangleSetup::link_planes(size_t first_triangle, const HomogeneousPlanes& planes, const Ordered& ordered) {
+    for (size_t t = first_triangle; t < batch_.triangles.size(); ++t) {
+        batch_.links.push_back({uint32_t(t), uint32_t(batch_.piece_planes.size())});
+    }
+    std::array<Plane, 3>& by_corner = batch_.piece_planes.emplace_back();
+    for (size_t i = 0; i < 3; ++i) by_corner[ordered.corner[i]] = planes.bary_over_w[i];
+}
+
+bool TriangleSetup::reaches_a_tile(size_t first_triangle) const {
+    bool reached = false;
+    for (size_t t = first_triangle; t < batch_.triangles.size() && !reached; ++t) {
+        grid_.for_each_touched(batch_.triangles[t], [&](size_t) {
+            reached = true;
+            return false;
+        });
+    }
+    return reached;
 }
 
 }  // namespace rawtexel::raster

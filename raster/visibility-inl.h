@@ -6,17 +6,16 @@
 #define RAWTEXEL_RASTER_VISIBILITY_INL_H
 #endif
 
+#include "raster/coverage-inl.h"
 #include "raster/edge.h"
 #include "raster/visibility.h"
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
-#include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <span>
 
 HWY_BEFORE_NAMESPACE();
@@ -24,190 +23,6 @@ namespace rawtexel::raster {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-// No vector is wider than a block's row of 8 pixels. Doubles set the pace of all that reaches depth; coverage alone runs in int32.
-using RowInts = hn::CappedTag<int32_t, kBlockWidth>;
-using RowDoubles = hn::CappedTag<double, kBlockWidth>;
-using DepthFloats = hn::Rebind<float, RowDoubles>;
-using DepthInts = hn::Rebind<int32_t, RowDoubles>;
-
-inline constexpr int kHiZWidth = 8;             // pixels along a side of a Hi-Z block: two waves, one above the other
-inline constexpr int kBlockLanes = kBlockWidth * kBlockHeight;
-
-template <class D, class M>
-HWY_INLINE uint32_t bits_of(D d, M mask) {
-    uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, mask, bytes);
-    uint32_t bits;
-    std::memcpy(&bits, bytes, sizeof(bits));
-    return bits & uint32_t((uint64_t{1} << hn::Lanes(d)) - 1);
-}
-
-template <class D>
-HWY_INLINE hn::Mask<D> mask_of(D d, uint32_t bits) {
-    uint8_t bytes[8] = {};
-    std::memcpy(bytes, &bits, sizeof(bits));
-    return hn::LoadMaskBits(d, bytes);
-}
-
-/// Everything about the tile and this pass's sample points that no triangle changes.
-struct TilePass {
-    TilePass(const Frame& frame, int tile_x, int tile_y, const TileSamples& samples_)
-        : samples(samples_),
-          size(frame.options().tile_size),
-          x(tile_x * size),
-          y(tile_y * size),
-          width(std::min(size, frame.options().width - x)),
-          height(std::min(size, frame.options().height - y)) {
-        std::fill_n(frame_offset, kBlockLanes, samples.frame);
-        offset_box = {samples.frame.x, samples.frame.x, samples.frame.y, samples.frame.y};
-        if (samples.per_pixel != nullptr) measure_offsets();
-#ifndef NDEBUG
-        const double reach = std::ceil(double(frame.options().filter_radius) * kSampleOne);
-        assert(double(offset_box.x_min) >= kSampleOne / 2 - reach && double(offset_box.x_max) <= kSampleOne / 2 + reach);
-        assert(double(offset_box.y_min) >= kSampleOne / 2 - reach && double(offset_box.y_max) <= kSampleOne / 2 + reach);
-#endif
-    }
-
-    void measure_offsets() {
-        const SampleOffset first = samples.per_pixel[0];
-        offset_box = {first.x, first.x, first.y, first.y};
-        for (int row = 0; row < height; ++row) {
-            for (const SampleOffset* o = samples.per_pixel + row * size; o != samples.per_pixel + row * size + width; ++o) {
-                offset_box.x_min = std::min(offset_box.x_min, int64_t{o->x});
-                offset_box.x_max = std::max(offset_box.x_max, int64_t{o->x});
-                offset_box.y_min = std::min(offset_box.y_min, int64_t{o->y});
-                offset_box.y_max = std::max(offset_box.y_max, int64_t{o->y});
-            }
-        }
-    }
-
-    /// Lanes of the wave at (column, row) of the tile that lie inside the frame.
-    uint32_t lanes_inside(int column, int row) const {
-        const int columns = std::min(width - column, kBlockWidth), rows = std::min(height - row, kBlockHeight);
-        if (columns <= 0 || rows <= 0) return 0;
-        const uint32_t in_row = (1u << columns) - 1;
-        return uint32_t((uint64_t{in_row * 0x01010101u}) & ((uint64_t{1} << (rows * kBlockWidth)) - 1));
-    }
-
-    /// Sample offsets by lane of the wave at (column, row).
-    const SampleOffset* offsets(int column, int row, SampleOffset (&storage)[kBlockLanes]) const {
-        if (samples.per_pixel == nullptr) return frame_offset;
-        for (int r = 0; r < kBlockHeight; ++r) {
-            std::copy_n(samples.per_pixel + (row + r) * size + column, kBlockWidth, storage + r * kBlockWidth);
-        }
-        return storage;
-    }
-
-    TileSamples samples;
-    int size, x, y, width, height;           // pixels; width and height of the part inside the frame
-    SampleBox offset_box;                    // of all offsets in use
-    SampleOffset frame_offset[kBlockLanes];
-};
-
-/// One edge of a triangle inside one tile.
-struct TileEdge {
-    TileEdge() = default;
-    TileEdge(const Edge& edge, const TilePass& pass) : dx(edge.dx), dy(edge.dy) {
-        at_tile = edge.at(int64_t{pass.x} * kSampleOne, int64_t{pass.y} * kSampleOne);
-        constexpr int64_t last_pixel = (kHiZWidth - 1) * kSampleOne;
-        const SampleBox block{pass.offset_box.x_min, last_pixel + pass.offset_box.x_max, pass.offset_box.y_min,
-                              last_pixel + pass.offset_box.y_max};
-        greatest = greatest_over(edge, block);
-        smallest = smallest_over(edge, block);
-    }
-    /// Value at the upper left corner of the pixel (column, row) of the tile.
-    int64_t at(int column, int row) const { return at_tile + (int64_t{dx} * row - int64_t{dy} * column) * kSampleOne; }
-
-    int32_t dx, dy;
-    int64_t at_tile;                // at the tile's upper left corner
-    int64_t greatest, smallest;     // what the samples of an 8x8 block can differ by from the value at its upper left corner
-};
-
-/// Coverage of the waves of one triangle: bit per lane.
-class TriangleCoverage {
-  public:
-    TriangleCoverage(const SetupTriangle& triangle, const TilePass& pass) : pass_(pass) {
-        const RowInts d;
-        for (int e = 0; e < 3; ++e) {
-            edge_[e] = TileEdge(edge_of(triangle, e), pass);
-            frame_term_[e] = int64_t{edge_[e].dx} * pass.samples.frame.y - int64_t{edge_[e].dy} * pass.samples.frame.x;
-            for (size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) {
-                hn::Store(hn::Mul(hn::Iota(d, int32_t(i)), hn::Set(d, -edge_[e].dy)), d, column_step_[e] + i);
-            }
-        }
-    }
-
-    /// Whether the 8x8 block may hold a covered sample; if so, readies the edges that cross it.
-    bool enter_block(int column, int row) {
-        crossing_ = 0;
-        for (int e = 0; e < 3; ++e) {
-            const int64_t value = edge_[e].at(column, row);
-            if (value + edge_[e].greatest < 0) return false;
-            if (value + edge_[e].smallest < 0) crossing_ |= 1u << e;
-        }
-        return true;
-    }
-
-    /// Covered lanes of the wave at (column, row), in the block entered last.
-    uint32_t wave(int column, int row) const {
-        if (crossing_ == 0) return 0xFFFFFFFFu;
-        return pass_.samples.per_pixel == nullptr ? wave_of_frame_offset(column, row) : wave_of_pixel_offsets(column, row);
-    }
-
-  private:
-    /// All samples of the tile lie on one lattice of pitch 512, so e >= 0 holds exactly where floor(e/512) >= 0, and that floor moves by
-    /// whole dx and dy from pixel to pixel. An edge that crosses an 8x8 block is zero somewhere between its samples: within the block
-    /// |floor(e/512)| <= 7*(|dx| + |dy|) + 1 < 2^28, and int32 is safe.
-    HWY_INLINE uint32_t wave_of_frame_offset(int column, int row) const {
-        const RowInts d;
-        int32_t first[3];
-        for (int e = 0; e < 3; ++e) first[e] = int32_t((edge_[e].at(column, row) + frame_term_[e]) >> kSampleBits);
-        uint32_t missed = 0;
-        for (int r = 0; r < kBlockHeight; ++r) {
-            for (size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) {
-                auto outside = hn::Zero(d);
-                for (int e = 0; e < 3; ++e) {
-                    if ((crossing_ >> e & 1u) == 0) continue;
-                    outside = hn::Or(outside, hn::Add(hn::Set(d, first[e] + r * edge_[e].dx), hn::Load(d, column_step_[e] + i)));
-                }
-                missed |= bits_of(d, hn::Lt(outside, hn::Zero(d))) << (size_t(r) * kBlockWidth + i);
-            }
-        }
-        return ~missed;
-    }
-
-    /// Every pixel has its own offset. All terms are integers below 2^53, so doubles are exact.
-    HWY_INLINE uint32_t wave_of_pixel_offsets(int column, int row) const {
-        const RowDoubles d;
-        const DepthInts di;
-        uint32_t covered = 0;
-        for (int r = 0; r < kBlockHeight; ++r) {
-            const SampleOffset* const offsets = pass_.samples.per_pixel + (row + r) * pass_.size + column;
-            for (size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) {
-                hn::Vec<DepthInts> offset_x, offset_y;
-                hn::LoadInterleaved2(di, &offsets[i].x, offset_x, offset_y);
-                const auto pixel_x = hn::Mul(hn::Iota(d, double(i)), hn::Set(d, double(kSampleOne)));
-                const auto x = hn::Add(hn::PromoteTo(d, offset_x), pixel_x), y = hn::PromoteTo(d, offset_y);
-                auto inside = hn::Ge(x, x);
-                for (int e = 0; e < 3; ++e) {
-                    if ((crossing_ >> e & 1u) == 0) continue;
-                    const auto step = hn::Sub(hn::Mul(y, hn::Set(d, double(edge_[e].dx))), hn::Mul(x, hn::Set(d, double(edge_[e].dy))));
-                    const auto value = hn::Add(hn::Set(d, double(edge_[e].at(column, row + r))), step);
-                    inside = hn::And(inside, hn::Ge(value, hn::Zero(d)));
-                }
-                covered |= bits_of(d, inside) << (size_t(r) * kBlockWidth + i);
-            }
-        }
-        return covered;
-    }
-
-    const TilePass& pass_;
-    TileEdge edge_[3];
-    int64_t frame_term_[3];         // what the frame's sample offset adds to each edge
-    unsigned crossing_ = 0;         // edges that the samples of the block lie on both sides of, one bit each
-    alignas(64) int32_t column_step_[3][kBlockWidth];
-};
 
 /// The one formula for depth: a pure function of triangle and sample point. Every step is monotonic in x and in y.
 template <class D, class V = hn::Vec<D>>
@@ -272,8 +87,9 @@ class TileRasterizer {
     }
     double from_origin_y(const SetupTriangle& triangle, int row) const { return pass_.y + row - double(triangle.y[0]) / kSubpixelOne; }
 
-    /// Whether opaque geometry hides the triangle in all of the 8x8 block. As every step of the depth formula is monotonic, its value at the
-    /// nearest corner of the samples' box is at least the value at every sample, to the last bit.
+    /// Whether what is drawn hides the triangle in all of the 8x8 block; only writes of opaque geometry make the block look again. As every
+    /// step of the depth formula is monotonic, its value at the nearest corner of the samples' box is at least the value at every sample,
+    /// to the last bit.
     bool hidden(const SetupTriangle& triangle, int column, int row) {
         const float farthest = farthest_in_block(column, row);
         if (farthest == 0.0f) return false;
@@ -283,33 +99,45 @@ class TileRasterizer {
         const double dy = double(triangle.depth_dy > 0.0 ? last + reach.y_max : reach.y_min) / kSampleOne;
         const hn::CappedTag<double, 1> d;
         const hn::Rebind<float, decltype(d)> df;
-        const auto nearest = depth_at(d, triangle, hn::Set(d, from_origin_x(triangle, column) + dx), hn::Set(d, from_origin_y(triangle, row) + dy));
+        const auto nearest =
+            depth_at(d, triangle, hn::Set(d, from_origin_x(triangle, column) + dx), hn::Set(d, from_origin_y(triangle, row) + dy));
         return hn::GetLane(clamp_depth(df, triangle, hn::DemoteTo(df, nearest))) < farthest;
     }
 
     float farthest_in_block(int column, int row) {
         const size_t index = block(column, row);
         if (out_.block_stale[index]) {
-            float farthest = 1.0f;
-            const int rows = std::min(kHiZWidth, pass_.height - row), columns = std::min(kHiZWidth, pass_.width - column);
-            for (int r = 0; r < rows; ++r) {
-                const float* const depth = out_.depth.data() + entry(column, row + r);
-                farthest = std::min(farthest, *std::min_element(depth, depth + columns));
-            }
-            out_.block_farthest[index] = farthest;
             out_.block_stale[index] = 0;
+            out_.block_farthest[index] =
+                least_depth(column, row, std::min(kHiZWidth, pass_.width - column), std::min(kHiZWidth, pass_.height - row));
         }
         return out_.block_farthest[index];
+    }
+
+    float least_depth(int column, int row, int columns, int rows) const {
+        const hn::CappedTag<float, kHiZWidth> d;
+        float least = 1.0f;
+        auto least_by_column = hn::Set(d, least);
+        for (int r = 0; r < rows; ++r) {
+            const float* const depth = out_.depth.data() + entry(column, row + r);
+            if (columns < kHiZWidth) {
+                least = std::min(least, *std::min_element(depth, depth + columns));
+                continue;
+            }
+            for (size_t i = 0; i < kHiZWidth; i += hn::Lanes(d)) least_by_column = hn::Min(least_by_column, hn::LoadU(d, depth + i));
+        }
+        return std::min(least, hn::GetLane(hn::MinOfLanes(d, least_by_column)));
     }
 
     template <class Coverage>
     HWY_INLINE void draw_wave(const SetupTriangle& triangle, uint32_t setup_index, int column, int row, uint32_t mask, Coverage& coverage) {
         WaveDepth wave;
-        measure_depth(triangle, column, row, wave);
+        measure_depth(triangle, column, row, mask, wave);
         uint32_t winners = mask & wave.nearer;
         for (uint32_t ties = mask & wave.equal; ties != 0; ties &= ties - 1) {
             const int lane = std::countr_zero(ties);
-            if (precedes(triangle, setup_index, out_.triangle[entry(column + lane % kBlockWidth, row + lane / kBlockWidth)])) winners |= 1u << lane;
+            const uint32_t other = out_.triangle[entry(column + lane % kBlockWidth, row + lane / kBlockWidth)];
+            if (precedes(triangle, setup_index, other)) winners |= 1u << lane;
         }
         if (winners == 0) return;
         if (triangle.coverage == CoverageClass::Opaque) {
@@ -329,14 +157,17 @@ class TileRasterizer {
         return triangle.triangle_id != other_id ? triangle.triangle_id < other_id : setup_index < other;
     }
 
-    HWY_INLINE void measure_depth(const SetupTriangle& triangle, int column, int row, WaveDepth& wave) const {
+    /// Depth of the wave's rows that hold lanes of the mask, and how it compares with what is there.
+    HWY_INLINE void measure_depth(const SetupTriangle& triangle, int column, int row, uint32_t mask, WaveDepth& wave) const {
         const RowDoubles d;
         const DepthFloats df;
         const DepthInts di;
         const auto to_pixels = hn::Set(d, 1.0 / kSampleOne);
-        auto offset_x = hn::Set(d, double(pass_.samples.frame.x) / kSampleOne), offset_y = hn::Set(d, double(pass_.samples.frame.y) / kSampleOne);
+        auto offset_x = hn::Set(d, double(pass_.samples.frame.x) / kSampleOne);
+        auto offset_y = hn::Set(d, double(pass_.samples.frame.y) / kSampleOne);
         const double origin_x = from_origin_x(triangle, column);
         for (int r = 0; r < kBlockHeight; ++r) {
+            if ((mask >> (r * kBlockWidth) & 0xFFu) == 0) continue;
             const float* const stored = out_.depth.data() + entry(column, row + r);
             const auto origin_y = hn::Set(d, from_origin_y(triangle, row + r));
             for (size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) {
@@ -385,7 +216,12 @@ void tile_visibility(const Frame& frame, int tile_x, int tile_y, const TileSampl
     if (bin.empty()) return;
     const TilePass pass(frame, tile_x, tile_y, samples);
     TileRasterizer rasterizer(frame, pass, out);
-    for (const uint32_t setup_index : bin) rasterizer.draw(setup_index, coverage);
+    // The triangles of a bin may lie far apart in memory: far enough ahead, and not too far.
+    constexpr size_t kAhead = 8;
+    for (size_t i = 0; i < bin.size(); ++i) {
+        if (i + kAhead < bin.size()) hwy::Prefetch(&frame.triangle(bin[i + kAhead]));
+        rasterizer.draw(bin[i], coverage);
+    }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -11,7 +11,8 @@ namespace rawtexel::raster {
 namespace HWY_NAMESPACE {
 
 void draw_all_covering(const Frame& frame, int tile_x, int tile_y, const TileSamples& samples, TileVisibility& out) {
-    tile_visibility(frame, tile_x, tile_y, samples, [](const CandidateWave& wave) { return wave.mask; }, out);
+    tile_visibility(
+        frame, tile_x, tile_y, samples, [](const CandidateWave& wave) { return wave.mask; }, out);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -11,16 +11,16 @@ namespace rawtexel::raster {
 /// The sample points of one pass over a tile: one offset for all pixels, or one per pixel.
 /// No offset may lie farther from the centre than FrameOptions::filter_radius (asserted).
 struct TileSamples {
-    SampleOffset frame;                        ///< used where per_pixel is null
-    const SampleOffset* per_pixel = nullptr;   ///< row by row over the tile, tile_size per row
+    SampleOffset frame;                       ///< used where per_pixel is null
+    const SampleOffset* per_pixel = nullptr;  ///< row by row over the tile, tile_size per row
 };
 
 /// A tile's visibility: tile_size x tile_size entries, row by row. Pixels outside the frame hold no triangle.
 struct TileVisibility {
     int tile_size = 0;
-    std::vector<uint32_t> triangle;   ///< setup index, or kNoTriangle
-    std::vector<float> depth;         ///< 1 near .. 0 far; 0 where there is no triangle
-    uint64_t hiz_rejected = 0;        ///< 8x8 blocks of triangles skipped because opaque geometry hides all of them
+    std::vector<uint32_t> triangle;  ///< setup index, or kNoTriangle
+    std::vector<float> depth;        ///< 1 near .. 0 far; 0 where there is no triangle
+    uint64_t hiz_rejected = 0;       ///< 8x8 blocks of triangles skipped because what is drawn before hides all of them
 
     /// Of every 8x8 block, row by row: depth of its farthest pixel as of the last look, and whether opaque geometry was written since.
     std::vector<float> block_farthest;
@@ -30,19 +30,20 @@ struct TileVisibility {
     void reset(int size);
 };
 
-/// A wave of candidate fragments of one triangle that pass the depth test so far: the 8x4 block whose upper left pixel is (x, y) of the frame.
+/// A wave of candidate fragments of one triangle that pass the depth test so far: the 8x4 block whose upper left pixel is (x, y) of the
+/// frame.
 struct CandidateWave {
     const SetupTriangle* triangle;
     uint32_t setup_index;
-    int x, y;                         ///< pixels of the frame, multiples of 8 and 4
-    uint32_t mask;                    ///< lane = column + 8*row
-    const SampleOffset* offset;       ///< 32 sample offsets, by lane
+    int x, y;                    ///< pixels of the frame, multiples of 8 and 4
+    uint32_t mask;               ///< lane = column + 8*row
+    const SampleOffset* offset;  ///< 32 sample offsets, by lane
 };
 
 /// Draws the bin of tile (tile_x, tile_y) into `out`, which it resets first. The winner at a sample is the greatest depth value
 /// (nearest), ties going to the smallest triangle_id, whatever the order of the bin: a total order. Opaque geometry is drawn first; for
 /// every other triangle `coverage(const CandidateWave&) -> uint32_t` returns the lanes of the mask that cover, called only for lanes in
-/// front so far. Coverage is exact: integer edge functions at 1/512-pixel sample points, top-left rule (D3D11.3 3.4.2.1).
+/// front so far. Coverage is exact: integer edge functions at 1/512-pixel sample points, top-left rule (D3D11.3, "Top-Left Rule").
 ///
 /// Defined in raster/visibility-inl.h, compiled into each caller's instruction set:
 ///   template <class Coverage>

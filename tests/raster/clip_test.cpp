@@ -48,8 +48,8 @@ Agreement expect_right_side(const glm::vec3 (&corner)[3], const glm::mat4& clip_
             if (side == reference::Side::OnBorder) continue;
             const bool covered = picture.id[size_t(y * kSize + x)] != kNoTriangle;
             EXPECT_EQ(covered, side == reference::Side::Inside)
-                << "pixel " << x << "," << y << " of (" << corner[0].x << " " << corner[0].y << " " << corner[0].z << ") (" << corner[1].x << " "
-                << corner[1].y << " " << corner[1].z << ") (" << corner[2].x << " " << corner[2].y << " " << corner[2].z << ")";
+                << "pixel " << x << "," << y << " of (" << corner[0].x << " " << corner[0].y << " " << corner[0].z << ") (" << corner[1].x
+                << " " << corner[1].y << " " << corner[1].z << ") (" << corner[2].x << " " << corner[2].y << " " << corner[2].z << ")";
             if (covered != (side == reference::Side::Inside)) return agreement;
             ++(covered ? agreement.inside : agreement.outside);
         }
@@ -111,9 +111,7 @@ TEST(Clip, DiscardsAndCountsTrianglesWithVerticesThatAreNotFinite) {
     }
 }
 
-bool same_bits(const ScreenVertex& p, const ScreenVertex& q) {
-    return std::memcmp(&p, &q, sizeof(p)) == 0;
-}
+bool same_bits(const ScreenVertex& p, const ScreenVertex& q) { return std::memcmp(&p, &q, sizeof(p)) == 0; }
 
 TEST(Clip, CutsASharedEdgeAtTheSameBitsFromBothSides) {
     std::mt19937 random(3);
@@ -131,7 +129,8 @@ TEST(Clip, CutsASharedEdgeAtTheSameBitsFromBothSides) {
         ASSERT_EQ(one.vertices().empty(), other.vertices().empty());
         cut_edges += !one.vertices().empty() && (outside_planes(a) | outside_planes(b)) != 0;
         for (const ScreenVertex& p : one.vertices()) {
-            const bool found = std::any_of(other.vertices().begin(), other.vertices().end(), [&](const ScreenVertex& q) { return same_bits(p, q); });
+            const bool found =
+                std::any_of(other.vertices().begin(), other.vertices().end(), [&](const ScreenVertex& q) { return same_bits(p, q); });
             ASSERT_TRUE(found) << "edge " << i << ": " << p.x << " " << p.y << " " << p.z << " " << p.w;
         }
     }
@@ -197,8 +196,8 @@ TEST(Clip, LeavesAClosedMeshClosedAroundACameraInsideIt) {
         for (const SamplePattern& pattern : sample_patterns()) {
             const std::vector<int> hits = count_candidates(frame, pattern);
             const auto wrong = std::find_if(hits.begin(), hits.end(), [](int n) { return n != 1; });
-            ASSERT_EQ(wrong, hits.end()) << *wrong << " hits at pixel " << (wrong - hits.begin()) % kSize << "," << (wrong - hits.begin()) / kSize
-                                         << " in round " << round;
+            ASSERT_EQ(wrong, hits.end()) << *wrong << " hits at pixel " << (wrong - hits.begin()) % kSize << ","
+                                         << (wrong - hits.begin()) / kSize << " in round " << round;
         }
     }
     EXPECT_GT(clipped, 100u);

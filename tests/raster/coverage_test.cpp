@@ -41,8 +41,9 @@ void expect_exact_coverage(const Mesh& mesh, const FrameOptions& options, const 
                 const SampleOffset offset = pattern.at(x, y);
                 const bool expected = reference::covers(snapped, int64_t{x} * 512 + offset.x, int64_t{y} * 512 + offset.y);
                 const bool drawn = picture.id[size_t(y) * size_t(options.width) + size_t(x)] != kNoTriangle;
-                ASSERT_EQ(drawn, expected) << "pixel " << x << "," << y << " offset " << offset.x << "," << offset.y << " triangle (" << v[0]->x << ","
-                                           << v[0]->y << ") (" << v[1]->x << "," << v[1]->y << ") (" << v[2]->x << "," << v[2]->y << ")";
+                ASSERT_EQ(drawn, expected) << "pixel " << x << "," << y << " offset " << offset.x << "," << offset.y << " triangle ("
+                                           << v[0]->x << "," << v[0]->y << ") (" << v[1]->x << "," << v[1]->y << ") (" << v[2]->x << ","
+                                           << v[2]->y << ")";
             }
         }
     }
@@ -78,8 +79,10 @@ TEST(Coverage, EqualsExactIntegersForSlivers) {
     Mesh mesh;
     for (int i = 0; i < 200; ++i) {
         // 3000 pixels long and some 1/256 pixel wide, through the frame in any direction.
-        const float angle = uniform(random, 0, 6.2831853f), x = uniform(random, 0, 64), y = uniform(random, 0, 32), width = uniform(random, 0, 0.01f);
-        const glm::vec3 along(1500 * std::cos(angle), 1500 * std::sin(angle), 0), across(-width * std::sin(angle), width * std::cos(angle), 0);
+        const float angle = uniform(random, 0, 6.2831853f), x = uniform(random, 0, 64), y = uniform(random, 0, 32),
+                    width = uniform(random, 0, 0.01f);
+        const glm::vec3 along(1500 * std::cos(angle), 1500 * std::sin(angle), 0),
+            across(-width * std::sin(angle), width * std::cos(angle), 0);
         const glm::vec3 middle(x, y, 0.5f);
         mesh.add(middle - along, middle + along, middle + across);
     }
@@ -137,7 +140,8 @@ Mesh jittered_grid(std::mt19937& random, float cell, float width, float height, 
     const auto on_lattice = [&](float v) { return lattice > 0 ? std::round(v / lattice) * lattice : v; };
     for (int j = 0; j <= rows; ++j) {
         for (int i = 0; i <= columns; ++i) {
-            const float x = (float(i) - 1 + uniform(random, -0.24f, 0.24f)) * cell - 2, y = (float(j) - 1 + uniform(random, -0.24f, 0.24f)) * cell - 2;
+            const float x = (float(i) - 1 + uniform(random, -0.24f, 0.24f)) * cell - 2,
+                        y = (float(j) - 1 + uniform(random, -0.24f, 0.24f)) * cell - 2;
             mesh.positions.emplace_back(on_lattice(x), on_lattice(y), uniform(random, 0.1f, 0.9f));
         }
     }
@@ -166,7 +170,7 @@ TEST(Coverage, OfAMeshIsExactlyOneAtEverySample) {
     uint64_t samples = 0;
     for (const float cell : {0.1f, 0.3f, 1.0f, 2.5f, 10.0f, 60.0f, 400.0f, 5000.0f}) {
         for (const float lattice : {0.0f, 0.5f}) {
-            if (lattice > 0 && cell < 2.0f) continue;      // would fold the mesh over
+            if (lattice > 0 && cell < 2.0f) continue;  // would fold the mesh over
             const int size = cell < 0.5f ? 16 : 64;
             const Mesh mesh = jittered_grid(random, cell, float(size) + 4, float(size) + 4, lattice);
             Draw draw = mesh.draw(clip_from_pixels(size, size));
@@ -176,8 +180,8 @@ TEST(Coverage, OfAMeshIsExactlyOneAtEverySample) {
                 const std::vector<int> hits = count_candidates(frame, pattern);
                 samples += hits.size();
                 const auto wrong = std::find_if(hits.begin(), hits.end(), [](int n) { return n != 1; });
-                ASSERT_EQ(wrong, hits.end()) << *wrong << " hits at pixel " << (wrong - hits.begin()) % size << "," << (wrong - hits.begin()) / size
-                                             << ", cell " << cell << ", lattice " << lattice;
+                ASSERT_EQ(wrong, hits.end()) << *wrong << " hits at pixel " << (wrong - hits.begin()) % size << ","
+                                             << (wrong - hits.begin()) / size << ", cell " << cell << ", lattice " << lattice;
             }
         }
     }

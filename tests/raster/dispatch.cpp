@@ -34,7 +34,8 @@ HWY_EXPORT(interpolate_wave_here);
 
 namespace testing {
 
-void draw_tile(const Frame& frame, int tile_x, int tile_y, const TileSamples& samples, const CoveragePolicy& coverage, TileVisibility& out) {
+void draw_tile(const Frame& frame, int tile_x, int tile_y, const TileSamples& samples, const CoveragePolicy& coverage,
+               TileVisibility& out) {
     HWY_DYNAMIC_DISPATCH(draw_tile_here)(frame, tile_x, tile_y, samples, coverage, out);
 }
 
@@ -50,9 +51,7 @@ std::vector<int64_t> instruction_sets() {
     return sets;
 }
 
-std::string name_of(int64_t instruction_set) {
-    return hwy::TargetName(instruction_set);
-}
+std::string name_of(int64_t instruction_set) { return hwy::TargetName(instruction_set); }
 
 UseInstructionSet::UseInstructionSet(int64_t instruction_set) {
     hwy::SetSupportedTargetsForTest(instruction_set);

@@ -63,9 +63,7 @@ glm::mat4 perspective(float focal, float aspect, float near_plane) {
     return {focal / aspect, 0, 0, 0, 0, focal, 0, 0, 0, 0, 0, -1, 0, 0, near_plane, 0};
 }
 
-float uniform(std::mt19937& random, float low, float high) {
-    return low + (high - low) * (float(random() >> 8) * 0x1p-24f);
-}
+float uniform(std::mt19937& random, float low, float high) { return low + (high - low) * (float(random() >> 8) * 0x1p-24f); }
 
 SampleOffset SamplePattern::at(int x, int y) const {
     if (!per_pixel) return frame;

@@ -31,7 +31,7 @@ float uniform(std::mt19937& random, float low, float high);
 struct SamplePattern {
     SampleOffset frame;
     bool per_pixel = false;
-    int radius = 0;             ///< of per-pixel offsets: odd multiples of 1/512 pixel less than this from the centre
+    int radius = 0;  ///< of per-pixel offsets: odd multiples of 1/512 pixel less than this from the centre
     uint32_t seed = 0;
 
     SampleOffset at(int x, int y) const;

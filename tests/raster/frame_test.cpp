@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -64,13 +65,14 @@ TEST(Frame, GivesEveryTriangleExactlyOneFate) {
         EXPECT_EQ(in_bins.size(), frame.counts().binned);
         sum += frame.counts();
     }
-    for (const uint64_t seen : {sum.culled_frustum, sum.culled_backface, sum.culled_degenerate, sum.culled_small, sum.culled_nonfinite, sum.clipped}) {
+    for (const uint64_t seen :
+         {sum.culled_frustum, sum.culled_backface, sum.culled_degenerate, sum.culled_small, sum.culled_nonfinite, sum.clipped}) {
         EXPECT_GT(seen, 0u);
     }
 }
 
 TEST(Frame, CullsBackFacesBySnappedWindingAndMirroring) {
-    const glm::vec3 a(8, 8, 0.5f), b(8, 40, 0.5f), c(40, 8, 0.5f);      // counter-clockwise on the screen, y down
+    const glm::vec3 a(8, 8, 0.5f), b(8, 40, 0.5f), c(40, 8, 0.5f);  // counter-clockwise on the screen, y down
     EXPECT_EQ(fate_of(a, b, c, CullMode::Back).binned, 1u);
     EXPECT_EQ(fate_of(a, c, b, CullMode::Back).culled_backface, 1u);
     EXPECT_EQ(fate_of(a, b, c, CullMode::Back, true).culled_backface, 1u);
@@ -119,7 +121,8 @@ TEST(Frame, CullsAsSmallOnlyWhatNoSamplePointCanHit) {
             };
             for (int64_t sy = int64_t((y - size) * 512) - 2; sy <= int64_t((y + size) * 512) + 2; ++sy) {
                 for (int64_t sx = int64_t((x - size) * 512) - 2; sx <= int64_t((x + size) * 512) + 2; ++sx) {
-                    ASSERT_FALSE(possible(sx) && possible(sy) && reference::covers(snapped, sx, sy)) << sx << "," << sy << " radius " << radius;
+                    ASSERT_FALSE(possible(sx) && possible(sy) && reference::covers(snapped, sx, sy))
+                        << sx << "," << sy << " radius " << radius;
                 }
             }
         }
@@ -154,6 +157,40 @@ TEST(Frame, SnapsToTheNearestSubpixelTiesToEven) {
     EXPECT_EQ(snapped_x(10.0f + 3.01f / 512), 2562);
     EXPECT_EQ(snapped_x(10.0f + 2.99f / 512), 2561);
     EXPECT_EQ(snapped_x(-10.0f - 1.0f / 512), -2560);
+}
+
+TEST(Frame, SetsTheSameTriangleUpToTheSameBitsInEveryVertexOrder) {
+    std::mt19937 random(2);
+    uint64_t clipped = 0;
+    for (int round = 0; round < 500; ++round) {
+        const float size = std::exp2(uniform(random, -2, 12));
+        const auto corner = [&] {
+            return glm::vec3(uniform(random, -size, size), uniform(random, -size, size), uniform(random, -2 * size, 0.5f));
+        };
+        const std::array<glm::vec3, 3> p = {corner(), corner(), corner()};
+        std::array<size_t, 3> order = {0, 1, 2};
+        std::vector<SetupTriangle> first;
+        do {
+            Mesh mesh;
+            mesh.add(p[order[0]], p[order[1]], p[order[2]]);
+            const Draw draw = mesh.draw(perspective(1.2f, 1, 0.05f));
+            const Frame frame(frame_options(64, 64), {&draw, 1});
+            clipped += frame.counts().clipped;
+            if (order == std::array<size_t, 3>{0, 1, 2}) {
+                for (uint32_t i = 0; i < frame.triangle_count(); ++i) first.push_back(frame.triangle(i));
+            }
+            ASSERT_EQ(frame.triangle_count(), first.size());
+            for (uint32_t i = 0; i < frame.triangle_count(); ++i) {
+                const SetupTriangle &a = first[i], &b = frame.triangle(i);
+                EXPECT_TRUE(std::ranges::equal(a.x, b.x) && std::ranges::equal(a.y, b.y)) << "round " << round;
+                EXPECT_EQ(a.depth_at_origin, b.depth_at_origin) << "round " << round;
+                EXPECT_EQ(a.depth_dx, b.depth_dx) << "round " << round;
+                EXPECT_EQ(a.depth_dy, b.depth_dy) << "round " << round;
+                EXPECT_TRUE(a.depth_min == b.depth_min && a.depth_max == b.depth_max) << "round " << round;
+            }
+        } while (std::next_permutation(order.begin(), order.end()));
+    }
+    EXPECT_GT(clipped, 200u);
 }
 
 TEST(Frame, BinsOpaqueThenMaskedThenBlendedEachInSceneOrder) {

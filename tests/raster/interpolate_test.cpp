@@ -75,11 +75,12 @@ WorstWeights worst_against_quadruple(const Frame& frame, std::span<const Draw> d
         const reference::QuadWeights right = reference::weights_at(vertex, x + h, y), left = reference::weights_at(vertex, x - h, y);
         const reference::QuadWeights below = reference::weights_at(vertex, x, y + h), above = reference::weights_at(vertex, x, y - h);
         const double got_slopes[4] = {got.db1_dx, got.db2_dx, got.db1_dy, got.db2_dy};
-        const Quad exact_slopes[4] = {(right.b[1] - left.b[1]) / (2 * h), (right.b[2] - left.b[2]) / (2 * h), (below.b[1] - above.b[1]) / (2 * h),
-                                      (below.b[2] - above.b[2]) / (2 * h)};
+        const Quad exact_slopes[4] = {(right.b[1] - left.b[1]) / (2 * h), (right.b[2] - left.b[2]) / (2 * h),
+                                      (below.b[1] - above.b[1]) / (2 * h), (below.b[2] - above.b[2]) / (2 * h)};
         double largest = 0;
         for (const Quad& slope : exact_slopes) largest = std::max(largest, std::abs(double(slope)));
-        for (int i = 0; i < 4; ++i) worst.derivative = std::max(worst.derivative, std::abs(double(got_slopes[i] - exact_slopes[i])) / largest);
+        for (int i = 0; i < 4; ++i)
+            worst.derivative = std::max(worst.derivative, std::abs(double(got_slopes[i] - exact_slopes[i])) / largest);
 
         const double x0 = x - triangle.x[0] / 256.0, y0 = y - triangle.y[0] / 256.0;
         const double depth = triangle.depth_at_origin + (triangle.depth_dx * x0 + triangle.depth_dy * y0);
@@ -158,7 +159,8 @@ TEST(Interpolation, NeverLeavesTheVerticesRangeOnWholeTriangles) {
     Mesh mesh;
     for (int i = 0; i < 3000; ++i) {
         // Slivers and crumbs, where a plane in floating point would overshoot.
-        const float x = uniform(random, 0, kSize), y = uniform(random, 0, kSize), length = std::exp2(uniform(random, -4, 11)), angle = uniform(random, 0, 6.3f);
+        const float x = uniform(random, 0, kSize), y = uniform(random, 0, kSize), length = std::exp2(uniform(random, -4, 11)),
+                    angle = uniform(random, 0, 6.3f);
         const glm::vec3 a(x, y, 0.5f), b = a + length * glm::vec3(std::cos(angle), std::sin(angle), 0);
         const float width = std::exp2(uniform(random, -7, 1));
         mesh.add(a, b, (a + b) * 0.5f + glm::vec3(uniform(random, -width, width), uniform(random, -width, width), 0.4f));
@@ -192,15 +194,14 @@ TEST(Interpolation, LeavesTheVerticesRangeOnPiecesByNoMoreThanSnappingMoves) {
         const Barycentrics at = barycentrics(triangle, x, y);
         const double b[3] = {1 - at.b1 - at.b2, at.b1, at.b2};
         const double dx[3] = {-at.db1_dx - at.db2_dx, at.db1_dx, at.db2_dx}, dy[3] = {-at.db1_dy - at.db2_dy, at.db1_dy, at.db2_dy};
-        for (int i = 0; i < 3; ++i) EXPECT_GE(b[i], -(std::abs(dx[i]) + std::abs(dy[i])) / 256 - 1e-9) << "weight " << i << " at " << x << "," << y;
+        for (int i = 0; i < 3; ++i)
+            EXPECT_GE(b[i], -(std::abs(dx[i]) + std::abs(dy[i])) / 256 - 1e-9) << "weight " << i << " at " << x << "," << y;
         ++samples;
     });
     EXPECT_GT(samples, 10000);
 }
 
-bool same_bits(const BarycentricWave& p, const BarycentricWave& q) {
-    return std::memcmp(&p, &q, sizeof(p)) == 0;
-}
+bool same_bits(const BarycentricWave& p, const BarycentricWave& q) { return std::memcmp(&p, &q, sizeof(p)) == 0; }
 
 /// What the wave must hold, from the scalar.
 BarycentricWave expected_wave(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y, uint32_t mask) {

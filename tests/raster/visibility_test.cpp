@@ -104,7 +104,9 @@ TEST(Visibility, GivesCoplanarCopiesToTheSmallestIdWhateverTheirVertexOrder) {
     for (int round = 0; round < 300; ++round) {
         // Large and steep, near plane and guard band included, so that depths have many bits to disagree in.
         const float size = std::exp2(uniform(random, -2, 12));
-        const auto corner = [&] { return glm::vec3(uniform(random, -size, size), uniform(random, -size, size), uniform(random, -2 * size, 0.5f)); };
+        const auto corner = [&] {
+            return glm::vec3(uniform(random, -size, size), uniform(random, -size, size), uniform(random, -2 * size, 0.5f));
+        };
         std::array<glm::vec3, 3> p = {corner(), corner(), corner()};
         std::array<int, 3> order = {0, 1, 2};
         Mesh mesh;
@@ -122,7 +124,8 @@ TEST(Visibility, GivesCoplanarCopiesToTheSmallestIdWhateverTheirVertexOrder) {
         std::shuffle(draws.begin(), draws.end(), random);
         const Picture picture = draw_frame(Frame(frame_options(64, 64), draws), sample_patterns()[round % 5]);
         for (size_t i = 0; i < picture.id.size(); ++i) {
-            ASSERT_TRUE(picture.id[i] == 0 || picture.id[i] == kNoTriangle) << "id " << picture.id[i] << " at entry " << i << " in round " << round;
+            ASSERT_TRUE(picture.id[i] == 0 || picture.id[i] == kNoTriangle)
+                << "id " << picture.id[i] << " at entry " << i << " in round " << round;
             covered += picture.id[i] == 0;
         }
     }
@@ -151,7 +154,8 @@ TEST(Visibility, AsksTheCoveragePolicyOnlyForCandidatesInFrontSoFar) {
                 EXPECT_EQ(wave.offset[lane], pattern.at(x, y)) << "lane " << lane;
                 if ((wave.mask >> lane & 1u) == 0) continue;
                 EXPECT_TRUE(x < 100 && y < 70);
-                const float depth = reference::depth_at(*wave.triangle, int64_t{x} * 512 + wave.offset[lane].x, int64_t{y} * 512 + wave.offset[lane].y);
+                const float depth =
+                    reference::depth_at(*wave.triangle, int64_t{x} * 512 + wave.offset[lane].x, int64_t{y} * 512 + wave.offset[lane].y);
                 EXPECT_GE(depth, opaque[size_t(y * 100 + x)]);
             }
             return cover_by_hash(wave);
@@ -181,6 +185,17 @@ TEST(Visibility, SkipsWhatOpaqueGeometryHidesAndCountsIt) {
     tile_visibility_opaque(back_to_front, 0, 0, {}, tile);
     EXPECT_EQ(tile.hiz_rejected, 0u);
     EXPECT_TRUE(std::all_of(tile.triangle.begin(), tile.triangle.end(), [](uint32_t t) { return t == 4; }));
+}
+
+TEST(Visibility, LetsAnEarlierTriangleOfEqualDepthThroughWhatHidesTheTile) {
+    Mesh mesh;
+    for (int copy = 0; copy < 2; ++copy) mesh.add({-64, -64, 0.5f}, {256, -64, 0.5f}, {-64, 256, 0.5f});
+    std::vector<Draw> draws(2, mesh.draw(clip_from_pixels(64, 64)));
+    draws[0].triangle_count = draws[1].triangle_count = 1;
+    draws[0].coverage = CoverageClass::Masked;
+    draws[1].first_triangle_id = 1;
+    const Picture picture = draw_frame(Frame(frame_options(64, 64), draws), {});
+    EXPECT_TRUE(std::all_of(picture.id.begin(), picture.id.end(), [](uint32_t id) { return id == 0; }));
 }
 
 TEST(Visibility, HoldsNoTriangleOutsideTheFrame) {

@@ -6,9 +6,7 @@ namespace {
 
 using Int = __int128;
 
-int sign(Int value) {
-    return value > 0 ? 1 : value < 0 ? -1 : 0;
-}
+int sign(Int value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
 
 /// On which side of the line from (ax, ay) to (bx, by) the point lies once it is nudged by (h, h^2), h > 0 as small as need be. Never 0 for
 /// two different points.

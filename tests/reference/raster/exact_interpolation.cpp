@@ -16,9 +16,7 @@ struct QuadLine {
     Quad a, b, c;
 };
 
-Quad magnitude(Quad value) {
-    return value < 0 ? -value : value;
-}
+Quad magnitude(Quad value) { return value < 0 ? -value : value; }
 
 /// Zero along the line through two vertices.
 QuadLine line_through(const QuadVertex& p, const QuadVertex& q) {
@@ -59,8 +57,8 @@ VisiblePart::VisiblePart(const QuadVertex (&v)[3]) {
     const Quad all = edge[0].a * v[0].x + edge[0].b * v[0].y + edge[0].c * v[0].w;
     edge_on_ = all == 0;
     if (edge_on_) return;
-    const Quad values[6][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {v[0].z, v[1].z, v[2].z},
-                               {v[0].w - v[0].z, v[1].w - v[1].z, v[2].w - v[2].z}};
+    const Quad values[6][3] = {
+        {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {v[0].z, v[1].z, v[2].z}, {v[0].w - v[0].z, v[1].w - v[1].z, v[2].w - v[2].z}};
     for (int i = 0; i < 6; ++i) {
         const QuadLine line = plane_of(edge, values[i], all);
         // Scaled first: the squares of what quadruple holds may not fit long double.

@@ -16,7 +16,7 @@ struct QuadVertex {
 QuadVertex to_screen(const glm::mat4& clip_from_object, const glm::vec3& position, int width, int height);
 
 struct QuadWeights {
-    Quad b[3];             ///< sum 1
+    Quad b[3];  ///< sum 1
     Quad inverse_w, depth;
 };
 
