@@ -53,13 +53,18 @@ std::string program_help(const Commands& commands) {
            "            4 output could not be written.\n";
 }
 
+bool takes_value(std::string_view option, const Commands& commands) {
+    return std::ranges::any_of(commands, [&](const auto& command) {
+        CommandLine line{"", ""};
+        return declare(line, *command).takes_value(option);
+    });
+}
+
 // The command is the first word that names one and is not the value of the option before it: options may come first.
 std::optional<size_t> find_command_word(const Words& words, const Commands& commands, size_t& which) {
     for (size_t i = 0; i < words.size(); ++i) {
         const auto found = std::ranges::find(commands, words[i], [](const auto& command) { return command->name(); });
-        if (found == commands.end()) continue;
-        CommandLine line{"", ""};
-        if (i > 0 && declare(line, **found).takes_value(words[i - 1])) continue;
+        if (found == commands.end() || (i > 0 && takes_value(words[i - 1], commands))) continue;
         which = size_t(found - commands.begin());
         return i;
     }

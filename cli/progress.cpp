@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kQuietSeconds = 1.0;      // Auto says nothing before
 constexpr double kRedrawSeconds = 0.1;
+constexpr double kLineSeconds = 1.0;       // Auto's lines are no closer
 constexpr int kBarWidth = 30;              // characters
 constexpr const char* kEraseLine = "\r\033[K";
 
@@ -27,7 +28,7 @@ std::string_view to_string(ProgressMode mode) {
 
 ProgressReport::ProgressReport(std::ostream& out, ProgressMode mode, bool terminal, double samples, Clock clock)
     : out_(out), mode_(mode), terminal_(terminal), samples_(samples), clock_(std::move(clock)), start_(clock_()) {
-    last_drawn_ = start_ - kRedrawSeconds;
+    last_drawn_ = start_ - kLineSeconds;
 }
 
 ProgressReport::~ProgressReport() {
@@ -72,8 +73,11 @@ void ProgressReport::draw_bar(double share, double elapsed) {
 
 void ProgressReport::print_line(double share, double elapsed) {
     const int tenth = int(share * 10.0 + 1e-9);
-    if (tenth <= last_tenth_) return;
+    const double now = start_ + elapsed;
+    const bool too_soon = mode_ == ProgressMode::Auto && share < 1.0 && now - last_drawn_ < kLineSeconds;
+    if (tenth <= last_tenth_ || too_soon) return;
     last_tenth_ = tenth;
+    last_drawn_ = now;
     lines_shown_ = true;
     out_ << "rawtexel: " << tenth * 10 << " % after " << print_duration(elapsed) << '\n' << std::flush;
 }

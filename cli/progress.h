@@ -14,7 +14,8 @@ namespace rawtexel::cli {
 enum class ProgressMode { Auto, Always, Never };
 std::string_view to_string(ProgressMode mode);   // auto always never
 
-/// A bar with rate and time left, redrawn in place, where `terminal`; elsewhere a plain line every ten percent.
+/// A bar with rate and time left, redrawn in place, where `terminal`; elsewhere a plain line every ten percent
+/// (Auto: and at most one a second).
 /// The bar is gone from the screen when the report ends, by finish() or with the object.
 class ProgressReport {
   public:

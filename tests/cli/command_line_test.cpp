@@ -135,7 +135,7 @@ TEST(CommandLine, WrappedTextKeepsItsWordsAndItsWidth) {
     }
     std::erase(wrapped, '\n');
     size_t gap;
-    while ((gap = wrapped.find("    ")) != std::string::npos) wrapped.replace(gap, 4, " ");
+    while ((gap = wrapped.find("    ")) != std::string::npos) wrapped.erase(gap, 3);
     EXPECT_EQ(wrapped, text);
 }
 

@@ -51,6 +51,14 @@ TEST(Progress, PlainLinesComeEveryTenPercentAndNoOftener) {
     EXPECT_EQ(text.find('\r'), std::string::npos);
 }
 
+TEST(Progress, AutoPrintsAtMostOneLineASecond) {
+    Report report(ProgressMode::Auto, false);
+    report.run(1000, 3.0);
+    const auto lines = std::ranges::count(report.out.str(), '\n');
+    EXPECT_GE(lines, 2) << report.out.str();
+    EXPECT_LE(lines, 4) << report.out.str();
+}
+
 TEST(Progress, AlwaysSaysThatAShortRunEnded) {
     Report report(ProgressMode::Always, false);
     report.progress.finish();

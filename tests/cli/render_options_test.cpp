@@ -96,7 +96,7 @@ TEST(RenderOptions, WrongValuesAreRefusedWithTheNearest) {
         {{"--mip", "liner"}, "--mip: unknown value 'liner', the nearest is 'linear' (scene linear nearest none)"},
         {{"--tonemap", "ACES"}, "--tonemap: unknown value 'ACES', the nearest is 'aces' (aces reinhard none)"},
         {{"--shadows", "of"}, "--shadows: unknown value 'of', the nearest is 'off' (on off)"},
-        {{"--tile-size", "48"}, "--tile-size: unknown value '48', the nearest is '64' (32 64 128)"},
+        {{"--tile-size", "63"}, "--tile-size: unknown value '63', the nearest is '64' (32 64 128)"},
         {{"--background", "enviroment"}, "--background: unknown value 'enviroment', the nearest is 'environment' (environment)"},
         {{"--size", "0x4"}, "--size: '0' is not a whole number from 1 to 16384"},
         {{"--size", "64"}, "--size: '64' is not WxH, such as 1280x720"},

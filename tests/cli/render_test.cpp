@@ -3,15 +3,18 @@
 #include "cli/version.h"
 #include "scenes/image_io.h"
 #include "tests/cli/program_runner.h"
+#include "texunit/simd.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 
 namespace rawtexel::cli {
@@ -24,10 +27,15 @@ using test::why_not_failed;
 using Json = nlohmann::json;
 using Words = std::vector<std::string>;
 
-/// A small frame, silent.
+/// A small frame, silent, without the sky whose prefiltering would take most of the time.
 Words render_words(const std::string& scene, const std::string& output, const Words& more = {}) {
     Words words{"render", scene, "-o", output, "--progress", "never"};
-    if (std::ranges::find(more, "--size") == more.end()) words.insert(words.end(), {"--size", "72x56"});
+    const auto add_default = [&](const char* option, const char* value) {
+        if (std::ranges::find(more, option) == more.end()) words.insert(words.end(), {option, value});
+    };
+    add_default("--size", "72x56");
+    add_default("--light", "0.2,-0.3,-1,3");
+    add_default("--environment", "none");
     words.insert(words.end(), more.begin(), more.end());
     return words;
 }
@@ -80,9 +88,9 @@ TEST(Render, TheImageShowsTheQuad) {
 TEST(Render, TheOrderOfWordsDoesNotMatter) {
     const TemporaryFolder folder;
     const std::string scene = test::write_quad(folder);
-    const std::vector<Words> orders{{"render", scene, "-o", folder / "a.png", "--size", "40x30", "--spp", "2"},
-                                    {"render", "--spp", "2", "-o", folder / "b.png", "--size", "40x30", scene},
-                                    {"--size", "40x30", "-o", folder / "c.png", "render", "--spp", "2", scene}};
+    const std::vector<Words> orders{{"render", scene, "-o", folder / "a.png", "--size", "40x30", "--ambient", "1", "--environment", "none"},
+                                    {"render", "--ambient", "1", "--environment", "none", "-o", folder / "b.png", "--size", "40x30", scene},
+                                    {"--size", "40x30", "-o", folder / "c.png", "render", "--environment", "none", "--ambient", "1", scene}};
     for (const Words& words : orders) ASSERT_EQ(why_not_rendered(words), "");
     const auto first = bits(scenes::read_image(folder / "a.png", false));
     EXPECT_EQ(first, bits(scenes::read_image(folder / "b.png", false)));
@@ -130,10 +138,20 @@ TEST(Render, ACropHasTheBitsOfTheWhole) {
     }
 }
 
+TEST(Render, ASceneWithoutLightsStandsUnderTheSky) {
+    const TemporaryFolder folder;
+    const std::string scene = test::write_quad(folder);
+    ASSERT_EQ(why_not_rendered({"render", scene, "-o", folder / "silent.exr", "--size", "40x30"}), "");
+    const auto silent = bits(scenes::read_image(folder / "silent.exr", false));
+    ASSERT_EQ(why_not_rendered({"render", scene, "-o", folder / "sky.exr", "--size", "40x30", "--environment", "sky"}), "");
+    EXPECT_EQ(bits(scenes::read_image(folder / "sky.exr", false)), silent);
+    ASSERT_EQ(why_not_rendered({"render", scene, "-o", folder / "dark.exr", "--size", "40x30", "--environment", "none"}), "");
+    for (const float value : scenes::read_image(folder / "dark.exr", false).values) ASSERT_EQ(value, 0.0f);
+}
+
 TEST(Render, SeedsChangeThePixelJitter) {
     const TemporaryFolder folder;
     const std::string scene = test::write_quad(folder);
-    const Words options{"--pixel-jitter", "pixel"};
     const auto zero = bits(rendered(folder, scene, {"--pixel-jitter", "pixel"}));
     EXPECT_EQ(zero, bits(rendered(folder, scene, {"--pixel-jitter", "pixel", "--seed", "0"})));
     EXPECT_NE(zero, bits(rendered(folder, scene, {"--pixel-jitter", "pixel", "--seed", "1"})));
@@ -172,7 +190,7 @@ TEST(Render, ImagesSayHowTheyWereMade) {
         const Words words = render_words(scene, folder / name, {"--count", "--seed", "77", "--filter", "bilinear"});
         ASSERT_EQ(why_not_rendered(words), "");
         const std::string bytes = test::read_file(folder / name);
-        for (const std::string part : {std::string("rawtexel:command"), "rawtexel render " + scene, std::string("rawtexel:seed"), std::string("77"),
+        for (const std::string& part : {std::string("rawtexel:command"), "rawtexel render " + scene, std::string("rawtexel:seed"), std::string("77"),
                                        std::string("rawtexel:spp"), std::string("--eye "), std::string("bilinear"), std::string("rawtexel:taps"),
                                        std::string("rawtexel:texels_requested"), std::string(version())})
             EXPECT_NE(bytes.find(part), std::string::npos) << name << ": " << part;
@@ -257,7 +275,7 @@ TEST(Render, ScenariosOfFidelityToolsRender) {
 TEST(Render, ProgressIsPlainLinesWhereThereIsNoTerminal) {
     const TemporaryFolder folder;
     const std::string scene = test::write_quad(folder);
-    const test::Outcome outcome = run({"render", scene, "-o", folder / "a.png", "--size", "300x300", "--progress", "always"});
+    const test::Outcome outcome = run({"render", scene, "-o", folder / "a.png", "--size", "300x300", "--environment", "none", "--progress", "always"});
     ASSERT_EQ(outcome.code, kDone);
     EXPECT_TRUE(outcome.err.ends_with("100 % after 0:00\n")) << outcome.err;
     EXPECT_EQ(outcome.err.find('\r'), std::string::npos);
@@ -281,7 +299,7 @@ TEST(RenderErrors, OutputThatCannotBeWrittenIsExitCode4BeforeTheRender) {
     const TemporaryFolder folder;
     const std::string scene = test::write_quad(folder);
     const std::vector<std::string> before = folder.names();
-    for (const std::string place : {folder / "missing/a.png", scene + "/a.png", folder.str() + "/../missing/a.exr", std::string("/proc/a.png")})
+    for (const std::string& place : {folder / "missing/a.png", scene + "/a.png", folder.str() + "/../missing/a.exr", std::string("/proc/a.png")})
         EXPECT_EQ(why_not_failed(run(render_words(scene, place)), kCannotWrite, place), "");
     std::filesystem::create_directory(folder / "folder.png");
     EXPECT_EQ(why_not_failed(run(render_words(scene, folder / "folder.png")), kCannotWrite, "folder.png"), "");

@@ -95,7 +95,7 @@ TEST(Scenario, EveryMissingOrWrongFieldIsNamed) {
         Json json = whole;
         json.at(pointer.parent_pointer()).erase(pointer.back());
         EXPECT_EQ(error_of(json.dump()), "--scenario: \"" + pointer.back() + "\" is missing");
-        for (const Json wrong : {Json(nullptr), Json::array(), Json(true), Json("")}) {
+        for (const Json& wrong : {Json(nullptr), Json::array(), Json(true), Json("")}) {
             json = whole;
             json[pointer] = wrong;
             EXPECT_TRUE(error_of(json.dump()).starts_with("--scenario: \"" + pointer.back() + "\" is not ")) << path << " " << wrong;

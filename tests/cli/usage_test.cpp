@@ -1,4 +1,5 @@
 // What the program says of itself, and of words it does not know.
+#include "cli/command.h"
 #include "cli/stats.h"
 #include "cli/version.h"
 #include "scenes/builtin.h"

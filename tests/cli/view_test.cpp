@@ -37,6 +37,12 @@ ViewOptions parse_view(const std::string& options) {
     return request.view;
 }
 
+ViewOptions camera_named(const std::string& name) {
+    ViewOptions options;
+    options.camera = name;
+    return options;
+}
+
 float largest_difference(const glm::mat4& a, const glm::mat4& b) {
     float largest = 0.0f;
     for (int column = 0; column < 4; ++column)
@@ -57,7 +63,7 @@ TEST(View, WhatIsPrintedGivesTheSameCamera) {
             for (const char* options : {"--fov 45", "--fov 20", "--orbit 30,20", "--orbit -100,-60,2.5", "--orbit 10,90", "--orbit 0,120", "--eye 9,1,2",
                                         "--target 0,1,0", "--eye 1,2,3 --target 0,0,0 --fov 77", "--orbit 30,20 --fov 90"})
                 expect_pasteable(sample_scene(with_cameras), parse_view(options), aspect);
-    for (const char* name : {"front", "tilted", "0", "1"}) expect_pasteable(sample_scene(true), ViewOptions{.camera = name}, 1.5f);
+    for (const char* name : {"front", "tilted", "0", "1"}) expect_pasteable(sample_scene(true), camera_named(name), 1.5f);
     expect_pasteable(sample_scene(false), {}, 1.5f);
     expect_pasteable(sample_scene(true), {}, 1.5f);
 }
@@ -73,20 +79,20 @@ TEST(View, ThePrintedDefaultIsBitEqual) {
 TEST(View, TheScenesFirstCameraComesFirst) {
     const shading::Scene scene = sample_scene(true);
     EXPECT_EQ(choose_view(scene, {}, 1.0f).camera.world_from_camera, scene.cameras[0].world_from_camera);
-    EXPECT_EQ(choose_view(scene, {.camera = "tilted"}, 1.0f).camera.world_from_camera, scene.cameras[1].world_from_camera);
-    EXPECT_EQ(choose_view(scene, {.camera = "1"}, 1.0f).camera.world_from_camera, scene.cameras[1].world_from_camera);
-    EXPECT_EQ(choose_view(scene, {.camera = "tilted"}, 1.0f).options, "--camera 1");
+    EXPECT_EQ(choose_view(scene, camera_named("tilted"), 1.0f).camera.world_from_camera, scene.cameras[1].world_from_camera);
+    EXPECT_EQ(choose_view(scene, camera_named("1"), 1.0f).camera.world_from_camera, scene.cameras[1].world_from_camera);
+    EXPECT_EQ(choose_view(scene, camera_named("tilted"), 1.0f).options, "--camera 1");
 }
 
 TEST(View, AnUnknownCameraNamesTheNearest) {
     try {
-        choose_view(sample_scene(true), {.camera = "frnot"}, 1.0f);
+        choose_view(sample_scene(true), camera_named("frnot"), 1.0f);
         FAIL();
     } catch (const UsageError& error) {
         EXPECT_STREQ(error.what(), "--camera: unknown value 'frnot', the nearest is 'front' (front tilted)");
     }
-    EXPECT_THROW(choose_view(sample_scene(true), {.camera = "2"}, 1.0f), UsageError);
-    EXPECT_THROW(choose_view(sample_scene(false), {.camera = "0"}, 1.0f), UsageError);
+    EXPECT_THROW(choose_view(sample_scene(true), camera_named("2"), 1.0f), UsageError);
+    EXPECT_THROW(choose_view(sample_scene(false), camera_named("0"), 1.0f), UsageError);
 }
 
 TEST(View, TheSphereJustFitsWhateverTheFieldOfView) {
@@ -95,7 +101,8 @@ TEST(View, TheSphereJustFitsWhateverTheFieldOfView) {
     for (const float aspect : {0.4f, 1.0f, 2.0f})
         for (const float fov : {10.0f, 45.0f, 100.0f})
             for (const bool orbit : {false, true}) {
-                ViewOptions options{.fov = fov};
+                ViewOptions options;
+                options.fov = fov;
                 if (orbit) options.orbit = Orbit{20, 30, 1};
                 const glm::vec3 eye(choose_view(scene, options, aspect).camera.world_from_camera[3]);
                 const float half = glm::radians(fov) / 2, narrow = std::min(half, std::atan(std::tan(half) * aspect));
@@ -104,8 +111,10 @@ TEST(View, TheSphereJustFitsWhateverTheFieldOfView) {
 }
 
 TEST(View, EyeAndTargetInOnePointAreRefused) {
-    EXPECT_THROW(choose_view(sample_scene(false), {.eye = glm::vec3(1, 2, 3), .target = glm::vec3(1, 2, 3)}, 1.0f), UsageError);
-    EXPECT_THROW(choose_view(sample_scene(false), {.eye = sample_scene(false).bounds().center()}, 1.0f), UsageError);
+    EXPECT_THROW(choose_view(sample_scene(false), parse_view("--eye 1,2,3 --target 1,2,3"), 1.0f), UsageError);
+    ViewOptions at_centre;
+    at_centre.eye = sample_scene(false).bounds().center();
+    EXPECT_THROW(choose_view(sample_scene(false), at_centre, 1.0f), UsageError);
 }
 
 }  // namespace
