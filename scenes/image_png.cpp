@@ -38,15 +38,36 @@ uint32_t checksum(Bytes bytes) {
     throw texunit::TextureError(name + ": damaged PNG: " + what);
 }
 
+/// What libpng would refuse, and print, on reading IHDR (PNG specification, 11.2.2).
+void check_header(const std::string& name, Bytes data) {
+    constexpr size_t kHeaderBytes = 13;
+    constexpr uint32_t kLibpngLimit = 1000000;   // of each extent
+    if (data.size() != kHeaderBytes) damaged(name, "a header of " + std::to_string(data.size()) + " bytes (13 were expected)");
+    const uint32_t width = big_endian_32(data), height = big_endian_32(data.subspan(4));
+    const auto allowed = [](uint32_t extent) { return extent >= 1 && extent <= kLibpngLimit; };
+    if (!allowed(width) || !allowed(height)) damaged(name, "extents of " + std::to_string(width) + " x " + std::to_string(height));
+
+    // Bit depths that go with each colour type.
+    const int bits = int(data[8]), colour_type = int(data[9]);
+    const bool deep = bits == 8 || bits == 16, shallow = bits == 1 || bits == 2 || bits == 4;
+    const bool grey = colour_type == 0 && (deep || shallow), palette = colour_type == 3 && (shallow || bits == 8);
+    const bool colour = (colour_type == 2 || colour_type == 4 || colour_type == 6) && deep;
+    if (!grey && !palette && !colour)
+        damaged(name, "colour type " + std::to_string(colour_type) + " of " + std::to_string(bits) + " bits");
+    if (int(data[10]) != 0 || int(data[11]) != 0 || int(data[12]) > 1) damaged(name, "an unknown compression, filter or interlace method");
+}
+
 }  // namespace
 
 std::vector<std::byte> png_without_ancillary_chunks(const std::string& name, Bytes png, PngExtent extent) {
     if (png.size() < kSignatureBytes) damaged(name, "cut off in its signature");
     std::vector<std::byte> kept(png.begin(), png.begin() + kSignatureBytes);
     Bytes rest = png.subspan(kSignatureBytes);
+    bool has_header = false, has_pixels = false;
     while (true) {
         if (rest.size() < kLengthBytes + kTypeBytes) damaged(name, "cut off before its IEND chunk");
         const std::string_view type(reinterpret_cast<const char*>(rest.data()) + kLengthBytes, kTypeBytes);
+        if (has_header != (type != "IHDR")) damaged(name, has_header ? "a second IHDR chunk" : "its first chunk is not IHDR");
         if (type == "IDAT" && extent == PngExtent::Header) {
             kept.insert(kept.end(), rest.begin(), rest.begin() + kLengthBytes + kTypeBytes);
             return kept;
@@ -54,14 +75,18 @@ std::vector<std::byte> png_without_ancillary_chunks(const std::string& name, Byt
         const uint64_t chunk_bytes = uint64_t{big_endian_32(rest)} + kLengthBytes + kTypeBytes + kChecksumBytes;
         if (chunk_bytes > rest.size()) damaged(name, "cut off in a chunk of " + std::to_string(chunk_bytes) + " bytes");
         const Bytes chunk = rest.first(chunk_bytes);
+        const Bytes summed = chunk.subspan(kLengthBytes, chunk.size() - kLengthBytes - kChecksumBytes);
+        if (checksum(summed) != big_endian_32(chunk.last(kChecksumBytes))) damaged(name, "checksum error in a chunk");
         rest = rest.subspan(chunk_bytes);
 
+        if (type == "IHDR") check_header(name, summed.subspan(kTypeBytes));
+        has_header = true;
+        has_pixels = has_pixels || type == "IDAT";
         const bool decides_pixels = type == "IHDR" || type == "PLTE" || type == "tRNS" || type == "IDAT" || type == "IEND";
-        if (!decides_pixels) continue;
-        const Bytes summed = chunk.subspan(kLengthBytes, chunk.size() - kLengthBytes - kChecksumBytes);
-        if (checksum(summed) != big_endian_32(chunk.last(kChecksumBytes))) damaged(name, "checksum error in chunk " + std::string(type));
-        kept.insert(kept.end(), chunk.begin(), chunk.end());
-        if (type == "IEND") return kept;
+        if (decides_pixels) kept.insert(kept.end(), chunk.begin(), chunk.end());
+        if (type != "IEND") continue;
+        if (!has_pixels) damaged(name, "no IDAT chunk");
+        return kept;
     }
 }
 
