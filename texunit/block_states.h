@@ -1,4 +1,4 @@
-// Which blocks of a texture are there. Every block goes once through claimed -> ready or failed; one thread takes it there, the others wait.
+// Which blocks of a texture are there. Every block goes once from claimed to ready or failed: one thread takes it there, the others wait.
 #pragma once
 
 #include "texunit/reserved_memory.h"

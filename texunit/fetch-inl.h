@@ -46,18 +46,47 @@ inline constexpr int kLog2TexelsPerBlock = 4;
 inline constexpr int kLog2TexelsPerGroup = 10;
 static_assert(1 << kLog2TexelsPerBlock == kTexelsPerBlock && 1 << kLog2TexelsPerGroup == kTexelsPerBlock * BlockStates::kGroup);
 
+/// Bitwise or of all lanes.
+template <class V>
+HWY_INLINE uint32_t or_of_lanes(V v) {
+    const hn::DFromV<V> d;
+    alignas(64) int32_t lanes[hn::MaxLanes(d)];
+    hn::Store(v, d, lanes);
+    uint32_t all = 0;
+    for (size_t i = 0; i < hn::Lanes(d); ++i) all |= uint32_t(lanes[i]);
+    return all;
+}
+
 /// Lanes whose texel lies in block group `group`.
 HWY_INLINE WaveMask lanes_in_group(const WaveInt& index, int32_t group) {
     const IntTag d;
-    const auto wanted = hn::Set(d, group);
     WaveMask lanes = 0;
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        lanes |= wave_mask(d, hn::Eq(hn::ShiftRight<kLog2TexelsPerGroup>(hn::Load(d, index.lane + i)), wanted), i);
+        lanes |= wave_mask(d, hn::Eq(hn::ShiftRight<kLog2TexelsPerGroup>(hn::Load(d, index.lane + i)), hn::Set(d, group)), i);
     }
     return lanes;
 }
 
-/// Calls for every block that the taps touch and that is not ready yet. Groups are few: a coherent wave touches one to four.
+/// The blocks of `group` that the taps from `first` on touch, as bits.
+template <int n>
+HWY_INLINE uint64_t blocks_touched(const WaveInt (&index)[n], int first, int32_t group) {
+    const IntTag d;
+    const auto one = hn::Set(d, 1), half = hn::Set(d, 32);
+    auto low = hn::Zero(d), high = hn::Zero(d);
+    for (int tap = first; tap < n; ++tap) {
+        for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+            const auto texel = hn::Load(d, index[tap].lane + i);
+            const auto here = hn::Eq(hn::ShiftRight<kLog2TexelsPerGroup>(texel), hn::Set(d, group));
+            const auto block = hn::And(hn::ShiftRight<kLog2TexelsPerBlock>(texel), hn::Set(d, BlockStates::kGroup - 1));
+            const auto bit = hn::IfThenElseZero(here, hn::Shl(one, hn::And(block, hn::Set(d, 31))));
+            low = hn::Or(low, hn::IfThenElseZero(block < half, bit));
+            high = hn::Or(high, hn::IfThenZeroElse(block < half, bit));
+        }
+    }
+    return uint64_t{or_of_lanes(high)} << 32 | or_of_lanes(low);
+}
+
+/// Has those blocks made that the taps touch and that are not ready. Groups are few: a coherent wave touches one to four.
 template <int n>
 HWY_NOINLINE void ensure_blocks(Texture& texture, const WaveInt (&index)[n]) {
     WaveMask pending[n];
@@ -65,18 +94,10 @@ HWY_NOINLINE void ensure_blocks(Texture& texture, const WaveInt (&index)[n]) {
     for (int tap = 0; tap < n; ++tap) {
         while (pending[tap] != 0) {
             const int32_t group = index[tap].lane[hwy::Num0BitsBelowLS1Bit_Nonzero32(pending[tap])] >> kLog2TexelsPerGroup;
-            const uint64_t missing = ~texture.ready_blocks(group);
-            uint64_t touched = 0;
-            for (int k = tap; k < n; ++k) {
-                const WaveMask lanes = lanes_in_group(index[k], group);
-                pending[k] &= ~lanes;
-                if (missing == 0) continue;
-                for (WaveMask left = lanes; left != 0; left &= left - 1) {
-                    const int32_t texel = index[k].lane[hwy::Num0BitsBelowLS1Bit_Nonzero32(left)];
-                    touched |= uint64_t{1} << (texel >> kLog2TexelsPerBlock & (BlockStates::kGroup - 1));
-                }
-            }
-            if ((touched & missing) != 0) texture.make_blocks(group, touched & missing);
+            uint64_t missing = ~texture.ready_blocks(group);
+            if (missing != 0) missing &= blocks_touched(index, tap, group);
+            if (missing != 0) texture.make_blocks(group, missing);
+            for (int k = tap; k < n; ++k) pending[k] &= ~lanes_in_group(index[k], group);
         }
     }
 }
@@ -84,14 +105,9 @@ HWY_NOINLINE void ensure_blocks(Texture& texture, const WaveInt (&index)[n]) {
 /// Bits of the levels that lanes read.
 HWY_INLINE uint32_t levels_read(const WaveInt& level) {
     const IntTag d;
-    const auto one = hn::Set(d, 1);
     auto bits = hn::Zero(d);
-    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) bits = hn::Or(bits, hn::Shl(one, hn::Load(d, level.lane + i)));
-    alignas(64) int32_t lanes[hn::MaxLanes(d)];
-    hn::Store(bits, d, lanes);
-    uint32_t all = 0;
-    for (size_t i = 0; i < hn::Lanes(d); ++i) all |= uint32_t(lanes[i]);
-    return all;
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) bits = hn::Or(bits, hn::Shl(hn::Set(d, 1), hn::Load(d, level.lane + i)));
+    return or_of_lanes(bits);
 }
 
 /// Makes sure that every texel of `index` may be read.
@@ -126,15 +142,17 @@ HWY_INLINE void unpack_field(const TexelLayout& layout, int c, int shift, const 
     };
     if (layout.table[c] != nullptr) {
         for (int tap = 0; tap < n; ++tap) {
-            for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) hn::Store(hn::GatherIndex(d, layout.table[c], field_at(tap, i)), d, out[tap].lane + i);
+            for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+                hn::Store(hn::GatherIndex(d, layout.table[c], field_at(tap, i)), d, out[tap].lane + i);
+            }
         }
         return;
     }
-    // field*hi is exact, so one sum of two products gives the correctly rounded quotient.
+    // field*hi is exact, so the sum rounds once, to the correctly rounded quotient, whether or not the multiply-add is fused.
     const auto hi = hn::Set(d, layout.scale_hi[c]), lo = hn::Set(d, layout.scale_lo[c]);
     const auto value = [&](hn::Vec<IntTag> field) HWY_ATTR {
         const auto number = hn::ConvertTo(d, field);
-        return hn::Add(hn::Mul(number, hi), hn::Mul(number, lo));
+        return hn::MulAdd(number, hi, hn::Mul(number, lo));
     };
     if (!layout.is_signed) {
         for (int tap = 0; tap < n; ++tap) {

@@ -63,12 +63,15 @@ void store_texel(Format format, const std::byte* file_texel, std::byte* decoded)
     std::memcpy(decoded, file_texel, size_t(about.bytes_per_block));
 }
 
-void store_block(Format format, const std::byte* rows, int width, int height, size_t row_stride, int block_x, int block_y, std::byte* decoded) {
+void store_block(Format format, const std::byte* rows, int width, int height, size_t row_stride, int block_x, int block_y,
+                 std::byte* decoded) {
     const auto file_bytes = size_t(info(format).bytes_per_block);
     const auto texel_bytes = size_t(bytes_per_texel(layout(format).storage));
     for (int j = 0; j < 4; ++j) {
         const std::byte* const row = rows + size_t(std::min(4 * block_y + j, height - 1)) * row_stride;
-        for (int i = 0; i < 4; ++i, decoded += texel_bytes) store_texel(format, row + size_t(std::min(4 * block_x + i, width - 1)) * file_bytes, decoded);
+        for (int i = 0; i < 4; ++i, decoded += texel_bytes) {
+            store_texel(format, row + size_t(std::min(4 * block_x + i, width - 1)) * file_bytes, decoded);
+        }
     }
 }
 

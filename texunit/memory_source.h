@@ -17,6 +17,7 @@ std::unique_ptr<TexelSource> make_memory_source(Format format, int width, int he
 void store_texel(Format format, const std::byte* file_texel, std::byte* decoded);
 
 /// Fills one decoded 4x4 block from uncompressed rows; texels outside repeat the last column and row.
-void store_block(Format format, const std::byte* rows, int width, int height, size_t row_stride, int block_x, int block_y, std::byte* decoded);
+void store_block(Format format, const std::byte* rows, int width, int height, size_t row_stride, int block_x, int block_y,
+                 std::byte* decoded);
 
 }  // namespace rawtexel::texunit

@@ -43,8 +43,8 @@ TexelBox texels_under(const FinerLevel& finer, int block_x, int block_y, int z) 
     return {columns[0].first, end_of(columns[3]), rows[0].first, end_of(rows[3]), depths.first, end_of(depths)};
 }
 
-void make_mip_block(const FinerLevel& finer, int block_x, int block_y, int z, const std::array<float, 4>* under, const TexelEncoder& encoder,
-                    int texel_bytes, std::byte* out) {
+void make_mip_block(const FinerLevel& finer, int block_x, int block_y, int z, const std::array<float, 4>* under,
+                    const TexelEncoder& encoder, int texel_bytes, std::byte* out) {
     const TexelBox box = texels_under(finer, block_x, block_y, z);
     const BlockWeights columns = block_weights(finer.width, block_x), rows = block_weights(finer.height, block_y);
     const AreaWeights depths = area_weights(finer.depth, z);
@@ -68,7 +68,9 @@ void make_mip_block(const FinerLevel& finer, int block_x, int block_y, int z, co
     for (size_t j = 0; j < 4; ++j) {
         for (size_t i = 0; i < 4; ++i) {
             Colour mean{};
-            for (int k = 0; k < rows[j].count; ++k) add_scaled(mean, averaged[size_t(rows[j].first - box.y0 + k)][i], rows[j].weight[size_t(k)]);
+            for (int k = 0; k < rows[j].count; ++k) {
+                add_scaled(mean, averaged[size_t(rows[j].first - box.y0 + k)][i], rows[j].weight[size_t(k)]);
+            }
             encoder.store(mean, out + (4 * j + i) * size_t(texel_bytes));
         }
     }

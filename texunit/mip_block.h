@@ -35,7 +35,7 @@ TexelBox texels_under(const FinerLevel& finer, int block_x, int block_y, int z);
 
 /// Writes the 16 texels of that block, encoded last, to `out` (16 * texel_bytes). Texels outside the level repeat its last column and row.
 /// `under` holds the linear values of texels_under(...): x fastest, then y, then z.
-void make_mip_block(const FinerLevel& finer, int block_x, int block_y, int z, const std::array<float, 4>* under, const TexelEncoder& encoder,
-                    int texel_bytes, std::byte* out);
+void make_mip_block(const FinerLevel& finer, int block_x, int block_y, int z, const std::array<float, 4>* under,
+                    const TexelEncoder& encoder, int texel_bytes, std::byte* out);
 
 }  // namespace rawtexel::texunit

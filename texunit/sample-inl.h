@@ -51,8 +51,8 @@ HWY_INLINE void count_lookups(WaveMask mask, FetchCounter& count) { count.textur
 
 /// One level of a lookup, through all three stages.
 template <StorageClass storage, int W, class Count>
-HWY_INLINE void sample_level(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, const WaveInt& level, WaveMask nearest,
-                             WaveMask counted, Count& count, WaveColor& out) {
+HWY_INLINE void sample_level(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, const WaveInt& level,
+                             WaveMask nearest, WaveMask counted, Count& count, WaveColor& out) {
     TapWave<W> taps;
     select_taps(texture.levels(), sampler, at, level, nearest, taps);
     count_taps(taps, counted, count);
@@ -77,8 +77,8 @@ HWY_NOINLINE void sample_levels(Texture& texture, const SamplerState& sampler, c
 }
 
 template <StorageClass storage, class Count>
-HWY_INLINE void sample_stored(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, const LevelChoice& choice, WaveMask mask,
-                              Count& count, WaveColor& out) {
+HWY_INLINE void sample_stored(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, const LevelChoice& choice,
+                              WaveMask mask, Count& count, WaveColor& out) {
     // Waves that mix kernels embed the nearest lanes in the wider one.
     const WaveMask nearest = nearest_lanes(sampler, choice);
     if (nearest == kWaveFull) {
@@ -91,8 +91,8 @@ HWY_INLINE void sample_stored(Texture& texture, const SamplerState& sampler, con
 /// Samples `texture` at the lanes of `mask`; other lanes of `out` hold the colour of the first active lane, all zero for an empty mask.
 /// `lod`, when asked for, gets lambda clamped to the levels there are. Count is FetchCounter or NoFetchCount.
 template <class Count>
-HWY_NOINLINE void sample_lanes(Texture& texture, const SamplerState& sampler, const WaveCoordinates& coordinates, WaveMask mask, Count& count,
-                               WaveColor& out, WaveFloat* lod) {
+HWY_NOINLINE void sample_lanes(Texture& texture, const SamplerState& sampler, const WaveCoordinates& coordinates, WaveMask mask,
+                               Count& count, WaveColor& out, WaveFloat* lod) {
     if (mask == 0) {
         out = {};
         if (lod != nullptr) *lod = {};

@@ -30,7 +30,8 @@ namespace rawtexel::texunit {
 HWY_EXPORT(sample_counting);
 HWY_EXPORT(sample_plain);
 
-void sample_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, WaveColor& out, FetchCounts* counts) {
+void sample_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, WaveColor& out,
+                 FetchCounts* counts) {
     if (counts == nullptr) {
         HWY_DYNAMIC_DISPATCH(sample_plain)(texture, sampler, at, mask, out);
         return;

@@ -1,4 +1,4 @@
-// One texture lookup for a wave: select taps -> fetch raw texels -> filter. The stages themselves are in select-inl.h, fetch-inl.h and filter-inl.h.
+// One texture lookup for a wave: select taps -> fetch raw texels -> filter. The stages are in select-inl.h, fetch-inl.h, filter-inl.h.
 #pragma once
 
 #include "texunit/fetch_log.h"
@@ -8,14 +8,18 @@
 
 namespace rawtexel::texunit {
 
-/// Normalised coordinates and their screen-space derivatives. Non-finite coordinates read as 0, non-finite derivatives as the coarsest level.
+/// Normalised coordinates and their screen-space derivatives. A coordinate that is not finite reads as 0, a derivative that is not finite
+/// means the coarsest level.
 struct WaveCoordinates {
     WaveFloat u, v;
     WaveFloat dudx, dvdx, dudy, dvdy;   ///< change of u, v over one pixel to the right, one pixel down
 };
 
-/// Samples 2-D `texture` at the lanes of `mask`; linear RGBA into `out`. Level of detail by D3D11.3 7.18.11 / Vulkan 16.5: lambda = log2(max(|d(st)/dx|, |d(st)/dy|)).
-/// Dispatches to the best instruction set allowed (texunit/simd.h). `counts` null: nothing is counted.
+/// Samples 2-D `texture` at the lanes of `mask`; linear RGBA into `out`, whose other lanes are unspecified but initialised. Level of detail
+/// by D3D11.3 7.18.11 and Vulkan "Level-of-Detail Operation": lambda = log2(max(|d(s, t)/dx|, |d(s, t)/dy|)), s and t in texels of level 0.
+/// Precision: the texel-space fraction is good to 2^-23 at any extent, lambda to 2^-21; taps of weight 0 are neither read nor counted, and
+/// the result lies within the taps. The same bits on every instruction set; dispatches to the best one allowed (texunit/simd.h).
+/// `counts` null: nothing is counted. Throws TextureError when a block it needs is damaged.
 void sample_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, WaveColor& out,
                  FetchCounts* counts = nullptr);
 

@@ -7,7 +7,7 @@
 
 namespace rawtexel::texunit {
 
-/// What a coordinate outside [0, 1) means (Vulkan 16.9 "wrapping operation").
+/// What a coordinate outside [0, 1) means (Vulkan "Wrapping Operation").
 enum class Wrap { Repeat, MirroredRepeat, ClampToEdge };
 
 /// Reconstruction kernel.

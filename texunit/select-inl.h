@@ -79,7 +79,7 @@ HWY_INLINE void fill_inactive(const WaveCoordinates& at, WaveMask mask, WaveCoor
     fill(at.dvdy, filled.dvdy);
 }
 
-/// rho_max^2 in texels of level 0: the squared length of the longer derivative (D3D11.3 7.18.11, Vulkan "scale factor operation"). Within
+/// rho_max^2 in texels of level 0: the squared length of the longer derivative (D3D11.3 7.18.11, Vulkan "Scale Factor Operation"). Within
 /// normal floats, so that its logarithm is finite; any derivative that is not finite gives the largest.
 template <class V>
 HWY_INLINE V rho_squared(V dudx, V dvdx, V dudy, V dvdy, V width, V height) {
@@ -134,7 +134,7 @@ HWY_INLINE void select_levels(const LevelTable& table, const SamplerState& sampl
         level = hn::IfThenElse(hn::RebindMask(di, whole), hn::Add(level, one_level), level);
         fraction = hn::IfThenElse(whole, zero, fraction);
 
-        // lambda <= 0 magnifies (Vulkan 16.7; the levels there are do not matter to it), then clamp to the levels.
+        // lambda <= 0 magnifies (Vulkan "Texel Filtering"), however many levels there are; then clamp to the levels.
         const auto at_zero = hn::And(hn::Eq(level, zero_level), hn::RebindMask(di, hn::Eq(fraction, zero)));
         choice.magnify |= wave_mask(di, hn::Or(level < zero_level, at_zero), i);
         const auto outside = hn::Or(level < zero_level, hn::Not(level < last_level));
@@ -146,7 +146,7 @@ HWY_INLINE void select_levels(const LevelTable& table, const SamplerState& sampl
             level = zero_level;
             fraction = zero;
         } else if (sampler.mip == MipMode::Nearest) {
-            // ceil(lambda + 1/2) - 1 (Vulkan 16.7, the preferred rule).
+            // ceil(lambda + 1/2) - 1 (Vulkan "Image Level(s) Selection", the preferred rule).
             level = hn::Add(level, hn::IfThenElseZero(hn::RebindMask(di, fraction > half), one_level));
             fraction = zero;
         }
@@ -176,8 +176,8 @@ HWY_INLINE V reduce_range(V coordinate) {
     return hn::Min(hn::Max(u, hn::Set(d, -10.0f)), hn::Set(d, 10.0f));
 }
 
-/// A texel-space coordinate as integer + remainder, |remainder| <= 1/2 (and a little where rounding of the product crosses it), exact but for
-/// one rounding of the remainder. The product of coordinate and extent is carried in two terms, so extents up to kMaxExtent keep 2^-24.
+/// A texel-space coordinate as integer + remainder, |remainder| <= 1/2 (and a little where rounding of the product crosses it), exact but
+/// for one rounding of the remainder. The product of coordinate and extent is carried in two terms, so extents up to kMaxExtent keep 2^-24.
 template <class V>
 HWY_INLINE void scale_coordinate(V reduced, V extent, V& integer, V& remainder) {
     V high, low;
@@ -218,8 +218,8 @@ HWY_INLINE void wrap_indices(V i, V extent, V (&index)[W]) {
 
 /// Taps along one axis. `nearest`: lanes that take one texel, embedded in a wider kernel with fraction 0.
 template <Wrap wrap, int W>
-HWY_NOINLINE void select_axis_as(const WaveFloat& coordinate, const std::array<int32_t, 16>& extents, const WaveInt& level, WaveMask nearest,
-                                 WaveInt (&index)[W], WaveFloat& fraction) {
+HWY_NOINLINE void select_axis_as(const WaveFloat& coordinate, const std::array<int32_t, 16>& extents, const WaveInt& level,
+                                 WaveMask nearest, WaveInt (&index)[W], WaveFloat& fraction) {
     const FloatTag d;
     const IntTag di;
     const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
@@ -231,7 +231,7 @@ HWY_NOINLINE void select_axis_as(const WaveFloat& coordinate, const std::array<i
         // Nearest takes the texel that holds the coordinate.
         auto first = hn::Add(integer, hn::IfThenElseZero(remainder < zero, hn::Set(d, -1.0f)));
         if constexpr (W == 2) {
-            // Bilinear: floor and fraction of coordinate - 1/2 = (integer - 1) + (remainder + 1/2), the sum in brackets hardly outside [0, 1].
+            // Bilinear: floor and fraction of coordinate - 1/2 = (integer - 1) + (remainder + 1/2); the second sum hardly leaves [0, 1].
             const auto raised = hn::Add(remainder, half);
             const auto step = hn::Sub(hn::IfThenElseZero(raised >= one, one), hn::IfThenElseZero(raised < zero, one));
             const auto largest = hn::Set(d, 1.0f - 0x1p-24f);

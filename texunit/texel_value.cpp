@@ -58,8 +58,8 @@ TexelEncoder::TexelEncoder(const TexelLayout& layout) : layout_(layout) {
 
 uint64_t TexelEncoder::field(int channel, double linear) const {
     const auto& thresholds = thresholds_[size_t(channel)];
-    if (!thresholds.empty()) return linear > 0 ? uint64_t(std::upper_bound(thresholds.begin(), thresholds.end(), linear) - thresholds.begin()) : 0;
-    if (!(linear == linear)) return 0;
+    if (std::isnan(linear)) return 0;
+    if (!thresholds.empty()) return uint64_t(std::upper_bound(thresholds.begin(), thresholds.end(), linear) - thresholds.begin());
     const double clamped = std::clamp(linear, layout_.is_signed ? -1.0 : 0.0, 1.0);
     return uint64_t(int64_t(std::floor(clamped * layout_.denominator[channel] + 0.5))) & layout_.mask[channel];
 }

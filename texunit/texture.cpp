@@ -17,7 +17,8 @@ namespace {
 void check_extents(const std::string& name, const Shape& shape) {
     for (const auto& [axis, extent] : {std::pair{"width", shape.width}, {"height", shape.height}, {"depth", shape.depth}}) {
         if (extent >= 1 && extent <= kMaxExtent) continue;
-        throw TextureError(name + ": " + axis + " of " + std::to_string(extent) + " texels (1 to " + std::to_string(kMaxExtent) + " are allowed)");
+        const std::string limit = std::to_string(kMaxExtent);
+        throw TextureError(name + ": " + axis + " of " + std::to_string(extent) + " texels (1 to " + limit + " are allowed)");
     }
     if (shape.layers < 1) throw TextureError(name + ": " + std::to_string(shape.layers) + " layers (at least 1 is allowed)");
 }
@@ -154,8 +155,8 @@ TextureWork Texture::work() const {
 }
 
 void Texture::make_blocks(int32_t group, uint64_t missing) {
-    // Claims are taken one at a time and finished before waiting. While a thread waits for a block of one level it therefore holds claims of
-    // coarser levels only, so waiting always points to finer levels and cannot go round in a circle.
+    // Claims are taken one at a time and finished before waiting. While a thread waits for a block of one level it therefore holds claims
+    // of coarser levels only, so waiting always points to finer levels and cannot go round in a circle.
     uint64_t others = 0;
     for (uint64_t bits = missing; bits != 0; bits &= bits - 1) {
         const int32_t block = group * BlockStates::kGroup + std::countr_zero(bits);

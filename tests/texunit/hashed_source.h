@@ -57,7 +57,8 @@ class HashedSource final : public TexelSource {
         const int last_x = level_extent(shape_.width, level) - 1, last_y = level_extent(shape_.height, level) - 1;
         for (int j = 0; j < 4; ++j) {
             for (int i = 0; i < 4; ++i, texels += bytes_per_texel(stored.storage)) {
-                store_random_texel(stored, address(level, slice, std::min(4 * block_x + i, last_x), std::min(4 * block_y + j, last_y)), texels);
+                store_random_texel(stored, address(level, slice, std::min(4 * block_x + i, last_x), std::min(4 * block_y + j, last_y)),
+                                   texels);
             }
         }
     }

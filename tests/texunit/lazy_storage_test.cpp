@@ -99,18 +99,20 @@ TEST(LazyStorage, DecodesEveryBlockOnceUnderManyThreads) {
         };
         Texture shared("shared", std::make_unique<HashedSource>(format, Shape{.width = kExtent, .height = kExtent}, 0, slowly));
         Texture alone("alone", std::make_unique<HashedSource>(format, Shape{.width = kExtent, .height = kExtent}));
-        std::vector<std::vector<WaveColor>> results(kThreads);
-        // All threads ask for the same waves in the same order, so that they meet.
         constexpr int kWaves = 200;
+        std::vector<std::vector<WaveColor>> results(kThreads, std::vector<WaveColor>(kWaves));
+        // All threads ask for the same waves in the same order, so that they meet.
         on_threads([&](int t) {
             std::mt19937 random(3);
-            for (int n = 0; n < kWaves; ++n) sample_wave(shared, {}, wave_at(random, kExtent), kWaveFull, results[size_t(t)].emplace_back());
+            for (WaveColor& result : results[size_t(t)]) sample_wave(shared, {}, wave_at(random, kExtent), kWaveFull, result);
         });
         std::mt19937 random(3);
         for (size_t n = 0; n < kWaves; ++n) {
             WaveColor expected;
             sample_wave(alone, {}, wave_at(random, kExtent), kWaveFull, expected);
-            for (int t = 0; t < kThreads; ++t) ASSERT_EQ(std::memcmp(&results[size_t(t)][n], &expected, sizeof(expected)), 0) << "thread " << t;
+            for (int t = 0; t < kThreads; ++t) {
+                ASSERT_EQ(std::memcmp(&results[size_t(t)][n], &expected, sizeof(expected)), 0) << "thread " << t;
+            }
         }
         EXPECT_EQ(decodes.most(), 1);
         EXPECT_EQ(decodes.blocks(), shared.work().blocks_decoded);

@@ -18,7 +18,8 @@ class LevelTableTest : public testing::TestWithParam<StorageClass> {};
 INSTANTIATE_TEST_SUITE_P(Classes, LevelTableTest, testing::ValuesIn(kStorageClasses));
 
 TEST_P(LevelTableTest, GivesEveryTexelAnIndexOfItsOwnAndEveryBlockItsPlaceBack) {
-    for (const Shape& shape : {pyramid(1, 1), pyramid(3, 5), pyramid(70, 33), pyramid(1, 200), pyramid(129, 1), pyramid(20, 24, 6), pyramid(37, 9, 1, 6)}) {
+    for (const Shape& shape :
+         {pyramid(1, 1), pyramid(3, 5), pyramid(70, 33), pyramid(1, 200), pyramid(129, 1), pyramid(20, 24, 6), pyramid(37, 9, 1, 6)}) {
         LevelTable table;
         ASSERT_TRUE(lay_out_levels(shape, GetParam(), table));
         std::vector<bool> taken(table.texels);
@@ -48,7 +49,10 @@ TEST_P(LevelTableTest, KeepsTheTexelsOfA4KiBPageTogether) {
     ASSERT_TRUE(lay_out_levels(pyramid(256, 256), GetParam(), table));
     std::set<int32_t> pages;
     for (int y = 0; y < 1 << page.log2_height; ++y) {
-        for (int x = 0; x < 1 << page.log2_width; ++x) pages.insert(texel_index(table, GetParam(), 0, 0, (3 << page.log2_width) + x, (2 << page.log2_height) + y) >> page.log2_texels());
+        for (int x = 0; x < 1 << page.log2_width; ++x) {
+            const int32_t index = texel_index(table, GetParam(), 0, 0, (3 << page.log2_width) + x, (2 << page.log2_height) + y);
+            pages.insert(index >> page.log2_texels());
+        }
     }
     EXPECT_EQ(pages.size(), 1u);
     for (int level = 0; level < table.levels; ++level) EXPECT_EQ(table.offset[size_t(level)] % (1 << page.log2_texels()), 0);

@@ -36,8 +36,8 @@ std::array<double, 4> mean_below(Texture& texture, int level, int slice, int x, 
         const std::array<float, 4> value = texture.texel(level - 1, volume ? k : slice, i, j);
         return std::array<double, 4>{value[0], value[1], value[2], value[3]};
     };
-    return reference::area_mean(level_extent(shape.width, level - 1), level_extent(shape.height, level - 1), level_extent(shape.depth, level - 1),
-                                texel, x, y, volume ? slice : 0);
+    return reference::area_mean(level_extent(shape.width, level - 1), level_extent(shape.height, level - 1),
+                                level_extent(shape.depth, level - 1), texel, x, y, volume ? slice : 0);
 }
 
 template <class Check>
@@ -86,8 +86,8 @@ TEST(Mips, AreTheAreaMeanRoundedToTheImagesOwnFormat) {
                     } else if (stored.storage == StorageClass::Half4) {
                         ASSERT_NEAR(found[c], exact[c], std::max(std::abs(exact[c]) * 0x1.001p-11, 0x1p-25)) << about.name;
                     } else if (scale > 0) {
-                        ASSERT_NEAR((srgb ? linear_to_srgb(found[c]) : double(found[c])) * scale, (srgb ? linear_to_srgb(exact[c]) : exact[c]) * scale,
-                                    0.5 + 1e-3)
+                        ASSERT_NEAR((srgb ? linear_to_srgb(found[c]) : double(found[c])) * scale,
+                                    (srgb ? linear_to_srgb(exact[c]) : exact[c]) * scale, 0.5 + 1e-3)
                             << about.name << " level " << level << " texel " << x << ',' << y << " channel " << c;
                     }
                 }
@@ -115,7 +115,8 @@ TEST(Mips, InFloatStorageKeepTheMeanWhateverTheFormat) {
                 for (int y = 0; y < h; ++y) {
                     for (int x = 0; x < w; ++x) mean += texture.texel(level, 0, x, y)[1] / double(w * h);
                 }
-                ASSERT_NEAR(mean, base, largest * level * 0x1p-24) << info(format).name << ' ' << width << 'x' << height << " level " << level;
+                ASSERT_NEAR(mean, base, largest * level * 0x1p-24)
+                    << info(format).name << ' ' << width << 'x' << height << " level " << level;
             }
         }
     }
@@ -151,7 +152,8 @@ TEST(Mips, ContinueWhereTheFileStops) {
 TEST(Mips, KeepConstantsAndLinearRamps) {
     for (const auto& [width, height] : kExtents) {
         Texture constant("constant", float_image(width, height, [](int, int) { return 0.3f; }));
-        for_each_generated_texel(constant, [&](int level, int slice, int x, int y) { ASSERT_EQ(constant.texel(level, slice, x, y)[0], 0.3f); });
+        for_each_generated_texel(constant,
+                                 [&](int level, int slice, int x, int y) { ASSERT_EQ(constant.texel(level, slice, x, y)[0], 0.3f); });
 
         // A ramp stays one: exactly that ramp at the wider texels' centres when the extents are even; when one is odd, texels share a
         // column and the ends move inwards by at most 1/(2N) of a texel, but steps stay equal.

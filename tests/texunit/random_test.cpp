@@ -12,10 +12,12 @@
 namespace rawtexel::texunit {
 namespace {
 
-constexpr Dimension kDimensions[] = {Dimension::PixelX, Dimension::PixelY, Dimension::TapX,     Dimension::TapY,  Dimension::TapZ,  Dimension::Level,
-                                     Dimension::Probe,  Dimension::Sign,   Dimension::Coverage, Dimension::Layer, Dimension::Light, Dimension::Plane};
+constexpr Dimension kDimensions[] = {Dimension::PixelX,   Dimension::PixelY, Dimension::TapX,  Dimension::TapY,
+                                     Dimension::TapZ,     Dimension::Level,  Dimension::Probe, Dimension::Sign,
+                                     Dimension::Coverage, Dimension::Layer,  Dimension::Light, Dimension::Plane};
 
-/// Standard deviations by which a chi-square statistic of `counts` against the uniform expectation is off (Wilson and Hilferty's cube root).
+/// Standard deviations by which a chi-square statistic of `counts` against the uniform expectation is off
+/// (Wilson and Hilferty's cube root).
 double chi_square_z(const std::vector<uint64_t>& counts) {
     uint64_t total = 0;
     for (const uint64_t count : counts) total += count;
@@ -42,7 +44,10 @@ const NamedWalk kWalks[] = {
     {"samples of a pixel", [](uint32_t n) { return RandomAddress{.x = 3, .y = 4, .sample = n}; }},
     {"surfaces of a pixel", [](uint32_t n) { return RandomAddress{.x = 3, .y = 4, .surface = n}; }},
     {"seeds", [](uint32_t n) { return RandomAddress{.seed = n}; }},
-    {"everything", [](uint32_t n) { return RandomAddress{.x = n % 16, .y = n / 16 % 16, .sample = n / 256 % 16, .surface = n / 4096 % 16, .seed = n / 65536}; }},
+    {"everything",
+     [](uint32_t n) {
+         return RandomAddress{.x = n % 16, .y = n / 16 % 16, .sample = n / 256 % 16, .surface = n / 4096 % 16, .seed = n / 65536};
+     }},
 };
 constexpr uint32_t kCount = 1 << 18;
 
@@ -109,19 +114,23 @@ TEST(Random, IsIndependentBetweenAllPairsOfRoles) {
 TEST(Random, ChangesHalfOfItsBitsWhenOneInputBitChanges) {
     std::mt19937 draw(1);
     constexpr int kTrials = 4096;
-    uint32_t RandomAddress::* const words[] = {&RandomAddress::x, &RandomAddress::y, &RandomAddress::sample, &RandomAddress::surface, &RandomAddress::seed};
+    uint32_t RandomAddress::*const words[] = {&RandomAddress::x, &RandomAddress::y, &RandomAddress::sample, &RandomAddress::surface,
+                                              &RandomAddress::seed};
     for (uint32_t RandomAddress::* const word : words) {
         for (int in = 0; in < 32; ++in) {
             int flips[32] = {};
             for (int n = 0; n < kTrials; ++n) {
-                RandomAddress address{uint32_t(draw()), uint32_t(draw()), uint32_t(draw()), uint32_t(draw()), Dimension::TapX, uint32_t(draw())};
+                const auto any = [&] { return uint32_t(draw()); };
+                RandomAddress address{any(), any(), any(), any(), Dimension::TapX, any()};
                 uint32_t change = random_bits(address);
                 address.*word ^= 1u << in;
                 change ^= random_bits(address);
                 for (int out = 0; out < 32; ++out) flips[out] += change >> out & 1;
             }
             // 5 160 frequencies are compared with 1/2: 6 standard deviations.
-            for (int out = 0; out < 32; ++out) ASSERT_NEAR(flips[out], kTrials / 2, 6 * std::sqrt(kTrials) / 2) << "bit " << in << " to " << out;
+            for (int out = 0; out < 32; ++out) {
+                ASSERT_NEAR(flips[out], kTrials / 2, 6 * std::sqrt(kTrials) / 2) << "bit " << in << " to " << out;
+            }
         }
     }
 }
@@ -137,7 +146,8 @@ TEST(Random, FloatsStayBelowOne) {
 TEST(Random, IsFixedForAllTime) {
     // Images are reproduced by their seed: these numbers may never change.
     EXPECT_EQ(random_bits(RandomAddress{}), 4050643711u);
-    EXPECT_EQ(random_bits(RandomAddress{.x = 1919, .y = 1079, .sample = 63, .surface = 123456, .dimension = Dimension::Coverage, .seed = 7}), 3091774439u);
+    const RandomAddress somewhere{.x = 1919, .y = 1079, .sample = 63, .surface = 123456, .dimension = Dimension::Coverage, .seed = 7};
+    EXPECT_EQ(random_bits(somewhere), 3091774439u);
 }
 
 }  // namespace

@@ -45,9 +45,10 @@ class LookupDraw {
     int below(int n) { return int(random_() % uint32_t(n)); }
 
     float coordinate(int extent) {
-        static constexpr float kAwkward[] = {0.0f,      -0.0f,    1.0f,    -1.0f,     0.5f,   -1e-9f,      1e-9f,     0x1p-149f, -0x1p-149f, 1 - 0x1p-24f,
-                                             1 + 0x1p-23f, 2.0f,  -2.0f,   1e6f,      -1e6f,  1234567.5f,  -98765.25f, 3e38f,    -3e38f,     kNan,
-                                             kInfinity, -kInfinity, 16777215.0f, 0.25f, 10.0f, -10.0f,      3 - 0x1p-22f, 1e-40f};
+        static constexpr float kAwkward[] = {0.0f,       -0.0f,       1.0f,         -1.0f,        0.5f,   -1e-9f,       1e-9f,
+                                             0x1p-149f,  -0x1p-149f,  1 - 0x1p-24f, 1 + 0x1p-23f, 2.0f,   -2.0f,        1e6f,
+                                             -1e6f,      1234567.5f,  -98765.25f,   3e38f,        -3e38f, kNan,         kInfinity,
+                                             -kInfinity, 16777215.0f, 0.25f,        10.0f,        -10.0f, 3 - 0x1p-22f, 1e-40f};
         switch (below(8)) {
             case 0: return kAwkward[below(int(std::size(kAwkward)))];
             case 1: {
@@ -105,8 +106,8 @@ std::string describe(const SamplerState& sampler, const Lookup& at) {
     std::ostringstream text;
     text.precision(9);
     text << to_string(sampler.wrap_s) << ',' << to_string(sampler.wrap_t) << " magnify " << to_string(sampler.magnify) << " minify "
-         << to_string(sampler.minify) << " mip " << to_string(sampler.mip) << " u " << at.u << " v " << at.v << " d/dx " << at.dudx << ',' << at.dvdx
-         << " d/dy " << at.dudy << ',' << at.dvdy;
+         << to_string(sampler.minify) << " mip " << to_string(sampler.mip) << " u " << at.u << " v " << at.v << " d/dx " << at.dudx << ','
+         << at.dvdx << " d/dy " << at.dudy << ',' << at.dvdy;
     return text.str();
 }
 
@@ -135,16 +136,18 @@ void judge(const reference::Image& image, const SamplerState& sampler, const Loo
     double unit = excess(expected, colour);
     if (unit > 1) {
         ++tally.other_decisions;
-        unit = std::min(excess(reference::sample(image, sampler, at, 0x1p-20), colour), excess(reference::sample(image, sampler, at, -0x1p-20), colour));
+        unit = std::min(excess(reference::sample(image, sampler, at, 0x1p-20), colour),
+                        excess(reference::sample(image, sampler, at, -0x1p-20), colour));
     }
     ++tally.lookups;
     if (unit > tally.worst) {
         tally.worst = unit;
         tally.worst_case = describe(sampler, at);
     }
-    ASSERT_LE(unit, 1) << describe(sampler, at) << "\n lambda " << expected.lambda << " taps " << expected.taps << " expected " << expected.colour[0]
-                       << ' ' << expected.colour[1] << ' ' << expected.colour[2] << ' ' << expected.colour[3] << "\n found " << colour[0] << ' '
-                       << colour[1] << ' ' << colour[2] << ' ' << colour[3] << "\n between " << expected.least[0] << " and " << expected.most[0];
+    ASSERT_LE(unit, 1) << describe(sampler, at) << "\n lambda " << expected.lambda << " taps " << expected.taps << " expected "
+                       << expected.colour[0] << ' ' << expected.colour[1] << ' ' << expected.colour[2] << ' ' << expected.colour[3]
+                       << "\n found " << colour[0] << ' ' << colour[1] << ' ' << colour[2] << ' ' << colour[3] << "\n between "
+                       << expected.least[0] << " and " << expected.most[0];
 }
 
 SamplerState sampler_number(uint32_t n) {
@@ -209,8 +212,9 @@ TEST_P(SampleSweep, AgreesWithTheReferenceAndBetweenInstructionSets) {
     EXPECT_LE(tally.other_decisions * 20, tally.lookups) << "of " << tally.lookups;
 }
 
-constexpr Format kOnePerClassAndEncoding[] = {Format::RGBA8Unorm, Format::RG8Snorm,    Format::RGBA8Srgb,  Format::BC1RgbaSrgb, Format::RGBA16Unorm,
-                                              Format::BC3Srgb,    Format::BC5Snorm,    Format::RGBA16Half, Format::RGBA32Float};
+constexpr Format kOnePerClassAndEncoding[] = {Format::RGBA8Unorm,  Format::RG8Snorm,    Format::RGBA8Srgb,
+                                              Format::BC1RgbaSrgb, Format::RGBA16Unorm, Format::BC3Srgb,
+                                              Format::BC5Snorm,    Format::RGBA16Half,  Format::RGBA32Float};
 constexpr std::pair<int, int> kExtents[] = {{1, 1}, {1, 37}, {3, 5}, {17, 1}, {64, 64}, {1000, 3}, {4096, 4096}, {16384, 16384}};
 
 std::string case_name(const testing::TestParamInfo<SampleSweep::ParamType>& parameters) {
@@ -219,7 +223,8 @@ std::string case_name(const testing::TestParamInfo<SampleSweep::ParamType>& para
     std::replace(name.begin(), name.end(), '-', '_');
     return name + "_" + std::to_string(extents.first) + "x" + std::to_string(extents.second);
 }
-INSTANTIATE_TEST_SUITE_P(Formats, SampleSweep, testing::Combine(testing::ValuesIn(kOnePerClassAndEncoding), testing::ValuesIn(kExtents)), case_name);
+INSTANTIATE_TEST_SUITE_P(Formats, SampleSweep, testing::Combine(testing::ValuesIn(kOnePerClassAndEncoding), testing::ValuesIn(kExtents)),
+                         case_name);
 
 TEST(SampleDecisions, DifferFromTheReferenceInAtMostOneOf100000RandomLookups) {
     constexpr int kWidth = 16384, kHeight = 3000;

@@ -68,7 +68,8 @@ WaveCoordinates uniform_coordinates(float u, float v, float texels_per_pixel, in
 
 void expect_constant(Format format, const std::vector<std::byte>& texel, MipStorage mip_storage, std::mt19937& random) {
     constexpr int kWidth = 13, kHeight = 6;
-    Texture texture("constant", make_memory_source(format, kWidth, kHeight, repeated(texel, kWidth * kHeight)), {.mip_storage = mip_storage});
+    Texture texture("constant", make_memory_source(format, kWidth, kHeight, repeated(texel, kWidth * kHeight)),
+                    {.mip_storage = mip_storage});
     const std::array<float, 4> expected = texture.texel(0, 0, 0, 0);
     for (const Kernel kernel : kKernels) {
         for (const MipMode mip : kMipModes) {
@@ -78,7 +79,8 @@ void expect_constant(Format format, const std::vector<std::byte>& texel, MipStor
             for (int c = 0; c < 4; ++c) {
                 for (int i = 0; i < kWaveLanes; ++i) {
                     ASSERT_EQ(std::bit_cast<uint32_t>(colour.channel[c][i]), std::bit_cast<uint32_t>(expected[size_t(c)]))
-                        << info(format).name << " channel " << c << " lane " << i << ": " << colour.channel[c][i] << " for " << expected[size_t(c)];
+                        << info(format).name << " channel " << c << " lane " << i << ": " << colour.channel[c][i] << " for "
+                        << expected[size_t(c)];
                 }
             }
         }
@@ -112,7 +114,8 @@ TEST_P(Sample, LeavesConstantTexturesOfWiderFormatsBitEqual) {
         expect_constant(Format::RGBA32Float, bytes_of(floats), MipStorage::Source, random);
         if (HasFatalFailure()) return;
     }
-    expect_constant(Format::RGBA32Float, bytes_of(std::vector<float>{std::numeric_limits<float>::max(), -std::numeric_limits<float>::max(), 0x1p-149f, 0}),
+    expect_constant(Format::RGBA32Float,
+                    bytes_of(std::vector<float>{std::numeric_limits<float>::max(), -std::numeric_limits<float>::max(), 0x1p-149f, 0}),
                     MipStorage::Source, random);
 }
 
@@ -120,17 +123,20 @@ TEST_P(Sample, GivesInfinityForConstantInfinityAndWhereItIsMixed) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     std::mt19937 random(3);
     expect_constant(Format::RGBA32Float, bytes_of(std::vector<float>{kInfinity, -kInfinity, 1, kInfinity}), MipStorage::Source, random);
+    expect_constant(Format::RGBA16Half, bytes_of(std::vector<uint16_t>{0x7C00, 0xFC00, 0x0001, 0x7BFF}), MipStorage::Source, random);
 
-    // Two texels, one of them infinite: any weight of it gives infinity, none gives the other texel.
-    Texture texture("mixed", make_memory_source(Format::R32Float, 2, 1, bytes_of(std::vector<float>{kInfinity, 3})));
+    // Two texels, the second infinite: any weight of it gives infinity, none gives the first.
+    Texture texture("mixed", make_memory_source(Format::R32Float, 2, 1, bytes_of(std::vector<float>{3, kInfinity})));
     const SamplerState sampler{.wrap_s = Wrap::ClampToEdge, .wrap_t = Wrap::ClampToEdge, .mip = MipMode::None};
-    WaveColor colour;
-    sample_wave(texture, sampler, uniform_coordinates(0.4f, 0.5f, 0, 2, 1), kWaveFull, colour);
-    EXPECT_EQ(colour.channel[0][0], kInfinity);
-    sample_wave(texture, sampler, uniform_coordinates(0.75f, 0.5f, 0, 2, 1), kWaveFull, colour);
-    EXPECT_EQ(colour.channel[0][0], 3);
-    EXPECT_EQ(colour.channel[1][0], 0);
-    EXPECT_EQ(colour.channel[3][0], 1);
+    const auto red = [&](float u) {
+        WaveColor colour;
+        sample_wave(texture, sampler, uniform_coordinates(u, 0.5f, 0, 2, 1), kWaveFull, colour);
+        return colour.channel[0][0];
+    };
+    EXPECT_EQ(red(0.4f), kInfinity);
+    EXPECT_EQ(red(0.6f), kInfinity);
+    EXPECT_EQ(red(0.25f), 3);
+    EXPECT_EQ(red(0.1f), 3);
 }
 
 TEST_P(Sample, ReadsExactlyTheTexelUnderItsCentreWithAnyKernel) {
@@ -143,10 +149,12 @@ TEST_P(Sample, ReadsExactlyTheTexelUnderItsCentreWithAnyKernel) {
                     WaveColor colour;
                     // 7 and 5 have no finite binary inverse, so bilinear may take a last-bit share of the neighbour.
                     sample_wave(texture, {.wrap_s = wrap, .wrap_t = wrap, .magnify = kernel, .minify = kernel},
-                                uniform_coordinates((float(x) + 0.5f) / kWidth, (float(y) + 0.5f) / kHeight, 0, kWidth, kHeight), kWaveFull, colour);
+                                uniform_coordinates((float(x) + 0.5f) / kWidth, (float(y) + 0.5f) / kHeight, 0, kWidth, kHeight), kWaveFull,
+                                colour);
                     const std::array<float, 4> expected = texture.texel(0, 0, x, y);
                     for (int c = 0; c < 4; ++c) {
-                        ASSERT_NEAR(colour.channel[c][5], expected[size_t(c)], kernel == Kernel::Nearest ? 0 : 2e-6) << x << ',' << y << " channel " << c;
+                        ASSERT_NEAR(colour.channel[c][5], expected[size_t(c)], kernel == Kernel::Nearest ? 0 : 2e-6)
+                            << x << ',' << y << " channel " << c;
                     }
                 }
             }
@@ -197,7 +205,21 @@ TEST_P(Sample, PicksLevelsByTheLongerDerivative) {
     EXPECT_EQ(red(nearest, 1.5f), texel(1));
     EXPECT_EQ(red(nearest, 4.0f), texel(2));
     EXPECT_EQ(red(nearest, 1000.0f), texel(6));
-    EXPECT_EQ(red(nearest, std::numeric_limits<float>::quiet_NaN()), texel(6)) << "a derivative that is not a number means the coarsest level";
+    EXPECT_EQ(red(nearest, std::numeric_limits<float>::quiet_NaN()), texel(6))
+        << "a derivative that is not a number means the coarsest level";
+    // Half-way the finer level wins (ceil(lambda + 1/2) - 1): rho^2 = 1 + 1 and 4 + 4 are lambda = 1/2 and 3/2 exactly.
+    for (const int level : {0, 1}) {
+        WaveCoordinates at = uniform_coordinates(0.3f, 0.6f, 0, 64, 64);
+        for (int i = 0; i < kWaveLanes; ++i) at.dudx[i] = at.dvdx[i] = float(level + 1) / 64;
+        WaveColor colour;
+        sample_wave(texture, nearest, at, kWaveFull, colour);
+        EXPECT_EQ(colour.channel[0][0], texel(level));
+    }
+    // lambda = 0 exactly still magnifies.
+    SamplerState mixed = nearest;
+    mixed.minify = Kernel::Bilinear;
+    EXPECT_EQ(red(mixed, 1.0f), texel(0));
+    EXPECT_NE(red(mixed, 1.01f), texel(0));
     SamplerState linear = nearest;
     linear.mip = MipMode::Linear;
     EXPECT_EQ(red(linear, 4.0f), texel(2));
@@ -218,7 +240,9 @@ TEST_P(Sample, MixesKernelsLaneByLane) {
         for (int i = 0; i < kWaveLanes; ++i) {
             const float rho = 32 * std::max(std::hypot(at.dudx[i], at.dvdx[i]), std::hypot(at.dudy[i], at.dvdy[i]));
             magnified += rho <= 1;
-            for (int c = 0; c < 4; ++c) ASSERT_EQ(mixed.channel[c][i], (rho <= 1 ? nearest : bilinear).channel[c][i]) << "lane " << i << " rho " << rho;
+            for (int c = 0; c < 4; ++c) {
+                ASSERT_EQ(mixed.channel[c][i], (rho <= 1 ? nearest : bilinear).channel[c][i]) << "lane " << i << " rho " << rho;
+            }
         }
         EXPECT_GT(magnified, 0);
         EXPECT_LT(magnified, kWaveLanes);
@@ -258,8 +282,14 @@ TEST_P(Sample, TouchesNoBlockForAnEmptyMaskAndOnlyOneForOneNearestLane) {
     std::mt19937 random(6);
     sample_wave(texture, {}, random_coordinates(random, 256), 0, colour);
     EXPECT_EQ(texture.work().blocks_decoded, 0u);
-    sample_wave(texture, {.magnify = Kernel::Nearest, .minify = Kernel::Nearest, .mip = MipMode::Nearest}, random_coordinates(random, 256), 1u << 17, colour);
+    sample_wave(texture, {.magnify = Kernel::Nearest, .minify = Kernel::Nearest, .mip = MipMode::Nearest}, random_coordinates(random, 256),
+                1u << 17, colour);
     EXPECT_EQ(texture.work().blocks_decoded, 1u);
+
+    // The centre of a block's last texel: the neighbours in the next blocks have weight 0.
+    Texture fresh("hashed", make_hashed_pyramid(Format::RGBA8Unorm, 256, 256));
+    sample_wave(fresh, {}, uniform_coordinates(3.5f / 256, 3.5f / 256, 1, 256, 256), kWaveFull, colour);
+    EXPECT_EQ(fresh.work().blocks_decoded, 1u);
 }
 
 TEST_P(Sample, CountsTapsOfWeightZeroNowhere) {

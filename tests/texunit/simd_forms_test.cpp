@@ -49,18 +49,19 @@ void logarithm(const WaveFloat& x, WaveInt& integer, WaveFloat& fraction) {
     }
 }
 
-void numbers(const Wave<uint32_t>& x, const Wave<uint32_t>& y, const Wave<uint32_t>& surface, const RandomAddress& rest, Wave<uint32_t>& bits,
-             WaveFloat& unit) {
+void numbers(const Wave<uint32_t>& x, const Wave<uint32_t>& y, const Wave<uint32_t>& surface, const RandomAddress& rest,
+             Wave<uint32_t>& bits, WaveFloat& unit) {
     const hn::ScalableTag<uint32_t> d;
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto random = random_bits_v(d, rest.seed, rest.sample, hn::Load(d, x.lane + i), hn::Load(d, y.lane + i), hn::Load(d, surface.lane + i),
-                                          rest.dimension);
+        const auto random = random_bits_v(d, rest.seed, rest.sample, hn::Load(d, x.lane + i), hn::Load(d, y.lane + i),
+                                          hn::Load(d, surface.lane + i), rest.dimension);
         hn::Store(random, d, bits.lane + i);
         hn::Store(unit_float_v(d, random), FloatTag(), unit.lane + i);
     }
 }
 
-void sample_counting_pixels(Texture& texture, const WaveCoordinates& at, WaveMask mask, FetchCounter& count, WaveColor& out, WaveFloat& lod) {
+void sample_counting_pixels(Texture& texture, const WaveCoordinates& at, WaveMask mask, FetchCounter& count, WaveColor& out,
+                            WaveFloat& lod) {
     sample_lanes(texture, SamplerState{}, at, mask, count, out, &lod);
 }
 

@@ -5,8 +5,8 @@
 namespace rawtexel::texunit::reference {
 namespace {
 
-/// Share of texel `i` of the coarser level that texel `k` of the finer one covers, along one axis. Everything is measured in units of
-/// 1/coarser of a finer texel, in which both grids are whole numbers: texel k is [k*coarser, (k + 1)*coarser), texel i is [i*finer, (i + 1)*finer).
+/// Share of texel `i` of the coarser level that texel `k` of the finer one covers, along one axis. Measured in units of 1/coarser of a
+/// finer texel both grids are whole numbers: k is [k*coarser, (k + 1)*coarser), i is [i*finer, (i + 1)*finer).
 double share(int finer, int i, int k) {
     const long coarser = std::max(1, finer / 2);
     const long from = std::max(long(k) * coarser, long(i) * finer), to = std::min((long(k) + 1) * coarser, (long(i) + 1) * finer);
@@ -15,8 +15,8 @@ double share(int finer, int i, int k) {
 
 }  // namespace
 
-std::array<double, 4> area_mean(int width, int height, int depth, const std::function<std::array<double, 4>(int, int, int)>& texel, int x, int y,
-                                int z) {
+std::array<double, 4> area_mean(int width, int height, int depth, const std::function<std::array<double, 4>(int, int, int)>& texel, int x,
+                                int y, int z) {
     std::array<double, 4> mean{};
     for (int k = 0; k < depth; ++k) {
         for (int j = 0; j < height; ++j) {

@@ -10,7 +10,7 @@ namespace {
 
 int extent_of(int base, int level) { return std::max(1, base >> level); }
 
-/// Vulkan 16.6, "Scale Factor Operation, Level-of-Detail Operation": lambda = log2(rho_max).
+/// Vulkan "Scale Factor Operation, Level-of-Detail Operation": lambda = log2(rho_max).
 double lambda_of(const Image& image, const Lookup& at) {
     for (const float derivative : {at.dudx, at.dvdx, at.dudy, at.dvdy}) {
         if (!std::isfinite(derivative)) return std::numeric_limits<double>::infinity();
@@ -20,7 +20,7 @@ double lambda_of(const Image& image, const Lookup& at) {
     return std::log2(std::max(rho_x, rho_y));
 }
 
-/// Vulkan 16.9, "Wrapping Operation".
+/// Vulkan "Wrapping Operation".
 int wrap_texel(Wrap wrap, long long i, int size) {
     const auto mod = [](long long a, long long n) { return ((a % n) + n) % n; };
     switch (wrap) {
@@ -52,7 +52,7 @@ double texel_space(Wrap wrap, float coordinate, int size) {
     return 0;
 }
 
-/// One or two taps along an axis (Vulkan 16.8, "(u,v,w) to (i,j,k) Transformation and Array Layer Selection").
+/// One or two taps along an axis (Vulkan "(u,v,w) to (i,j,k) Transformation and Array Layer Selection").
 std::array<AxisTap, 2> axis_taps(Kernel kernel, Wrap wrap, float coordinate, int size) {
     const double x = texel_space(wrap, coordinate, size);
     if (kernel == Kernel::Nearest) return {{{wrap_texel(wrap, (long long)(std::floor(x)), size), 1.0}, {0, 0.0}}};

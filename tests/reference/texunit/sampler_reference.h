@@ -1,4 +1,4 @@
-// One texture lookup in double precision, one pixel at a time, written from the Vulkan specification ("Image operations", chapter 16) and
+// One texture lookup in double precision, one pixel at a time, written from the Vulkan specification ("Image Operations") and
 // D3D11.3 7.18. Float coordinates are taken as exact. Nothing is shared with the product's sampling code but the sampler's description.
 #pragma once
 
