@@ -158,7 +158,7 @@ HWY_INLINE V roughness_level(D d, const RoughnessScale& scale, V roughness) {
     return hn::IfThenElse(hn::Lt(offset, hn::Zero(d)), narrow, wide);
 }
 
-/// Mean radiance over the GGX lobe (n = v = r) about unit `direction`.
+/// Mean radiance over the GGX lobe (n = v = r) about `direction` (of any length).
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vector3<V> specular_radiance(D d, const Environment::Tables& tables, const Vector3<V>& direction, V roughness) {
     const hn::RebindToSigned<D> di;

@@ -1,7 +1,6 @@
 #include "shading/environment.h"
 
 #include "shading/environment_tables.h"
-#include "shading/ggx_albedo.h"
 #include "shading/prefilter.h"
 
 #include <algorithm>
@@ -39,7 +38,6 @@ Environment::Environment(const Image& latlong, Executor& executor) {
     tables->height = clean.height;
     tables->latlong = clean.values;
     prefilter(clean, executor, *tables);
-    ggx_albedo_table();
     tables_ = std::move(tables);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shading/environment.h"
+#include "shading/ggx_albedo.h"
 #include "shading/packed_radiance.h"
 
 #include <array>
@@ -23,6 +24,8 @@ struct RoughnessScale {
 };
 
 struct Environment::Tables {
+    const GgxReflectionTable* reflection = &ggx_reflection_table();
+
     int width = 0, height = 0;
     std::vector<float> latlong;  ///< RGB interleaved, rows from the top, finite and >= 0
 

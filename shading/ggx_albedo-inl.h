@@ -1,4 +1,4 @@
-// Looking up the albedo of GGX in vectors.
+// Looking up reflections of GGX in vectors.
 #if defined(RAWTEXEL_SHADING_GGX_ALBEDO_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RAWTEXEL_SHADING_GGX_ALBEDO_INL_H_
 #undef RAWTEXEL_SHADING_GGX_ALBEDO_INL_H_
@@ -13,30 +13,34 @@ HWY_BEFORE_NAMESPACE();
 namespace rawtexel::shading {
 namespace HWY_NAMESPACE {
 
+/// The zonal lobe that stands for a reflection, and its weight.
 template <class V>
-struct GgxAlbedo {
+struct GgxLobe {
     V scale, bias;  ///< reflected share of uniform light: F0 * scale + bias
+    V lean;         ///< axis: mirror direction + lean * (normal - mirror direction)
+    V roughness;
 };
 
 /// Bilinear in sqrt(n.v) and roughness, both in [0, 1].
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE GgxAlbedo<V> ggx_albedo_lanes(D d, const GgxAlbedoTable& table, V n_dot_v, V roughness) {
+HWY_INLINE GgxLobe<V> ggx_lobe(D d, const GgxReflectionTable& table, V n_dot_v, V roughness) {
+    using Table = GgxReflectionTable;
     const hn::RebindToSigned<D> di;
-    constexpr int kViews = GgxAlbedoTable::kViews, kRoughnesses = GgxAlbedoTable::kRoughnesses;
     const V one = hn::Set(d, 1.0f), zero = hn::Zero(d);
-    const V x = hn::Mul(hn::Sqrt(hn::Min(hn::Max(n_dot_v, zero), one)), hn::Set(d, float(kViews - 1)));
-    const V y = hn::Mul(hn::Min(hn::Max(roughness, zero), one), hn::Set(d, float(kRoughnesses - 1)));
-    const auto column = held_integer(d, x, 0, kViews - 2), row = held_integer(d, y, 0, kRoughnesses - 2);
+    const V x = hn::Mul(hn::Sqrt(hn::Min(hn::Max(n_dot_v, zero), one)), hn::Set(d, float(Table::kViews - 1)));
+    const V y = hn::Mul(hn::Min(hn::Max(roughness, zero), one), hn::Set(d, float(Table::kRoughnesses - 1)));
+    const auto column = held_integer(d, x, 0, Table::kViews - 2), row = held_integer(d, y, 0, Table::kRoughnesses - 2);
     const Bilinear<V> at{hn::Sub(x, hn::ConvertTo(d, column)), hn::Sub(y, hn::ConvertTo(d, row))};
 
-    const auto first = hn::ShiftLeft<1>(hn::Add(hn::Mul(row, hn::Set(di, kViews)), column));
+    static_assert(Table::kChannels == 4);
+    const auto first = hn::ShiftLeft<2>(hn::Add(hn::Mul(row, hn::Set(di, Table::kViews)), column));
     const auto channel = [&](int c) HWY_ATTR {
-        const float* base = table.values.data() + c;
-        const float* below = base + 2 * kViews;
-        return mixed(d, at, hn::GatherIndex(d, base, first), hn::GatherIndex(d, base + 2, first), hn::GatherIndex(d, below, first),
-                     hn::GatherIndex(d, below + 2, first));
+        const float* row_start = table.values.data() + c;
+        const float* below = row_start + Table::kChannels * Table::kViews;
+        return mixed(d, at, hn::GatherIndex(d, row_start, first), hn::GatherIndex(d, row_start + Table::kChannels, first),
+                     hn::GatherIndex(d, below, first), hn::GatherIndex(d, below + Table::kChannels, first));
     };
-    return {channel(0), channel(1)};
+    return {channel(Table::kScale), channel(Table::kBias), channel(Table::kLean), channel(Table::kRoughness)};
 }
 
 /// Mean of (1 - v.h)^5 over cosine-weighted light: kDiffuseFresnel.

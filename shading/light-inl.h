@@ -35,15 +35,17 @@ HWY_INLINE Vector3<V> punctual_radiance(D d, const Light& light, const ShadowMap
     return {hn::IfThenElseZero(lit, radiance.x), hn::IfThenElseZero(lit, radiance.y), hn::IfThenElseZero(lit, radiance.z)};
 }
 
-/// Radiance that the environment adds: split sum (Karis 2013) for the reflection, irradiance for the diffuse term.
+/// Radiance that the environment adds. The reflection is a split sum (Karis 2013): its weight times the mean light of the prefiltered lobe
+/// that resembles it most; the diffuse term sees the irradiance.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vector3<V> environment_radiance(D d, const Environment::Tables& tables, const ShadingPoint<V>& p) {
     const V one = hn::Set(d, 1.0f);
     const V n_dot_v = hn::Min(p.n_dot_v, one);
+    const GgxLobe<V> lobe = ggx_lobe(d, *tables.reflection, n_dot_v, p.roughness);
     const Vector3<V> mirrored = sub(scale(p.normal, hn::Mul(hn::Set(d, 2.0f), dot(p.normal, p.view))), p.view);
-    const GgxAlbedo<V> albedo = ggx_albedo_lanes(d, ggx_albedo_table(), n_dot_v, p.roughness);
-    const Vector3<V> arriving = specular_radiance(d, tables, mirrored, p.roughness);
-    const auto specular = [&](V f0, V light) HWY_ATTR { return hn::Mul(hn::Add(hn::Mul(f0, albedo.scale), albedo.bias), light); };
+    const Vector3<V> axis = add(mirrored, scale(sub(p.normal, mirrored), lobe.lean));
+    const Vector3<V> arriving = specular_radiance(d, tables, axis, lobe.roughness);
+    const auto specular = [&](V f0, V light) HWY_ATTR { return hn::Mul(hn::Add(hn::Mul(f0, lobe.scale), lobe.bias), light); };
     Vector3<V> radiance{specular(p.f0.x, arriving.x), specular(p.f0.y, arriving.y), specular(p.f0.z, arriving.z)};
 
     // Metals and black have no diffuse term. Of the others' light, F0 + (1 - F0) * mean Schlick weight is reflected before it enters.

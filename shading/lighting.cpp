@@ -30,7 +30,7 @@ void look_specular(const Environment& environment, const WaveVector& direction, 
 /// Scale and bias of 32 pairs of n.v (`n_dot_v`) and roughness.
 void look_albedo(const WaveFloat& n_dot_v, const WaveFloat& roughness, WaveFloat& scale_out, WaveFloat& bias_out) {
     const hn::ScalableTag<float> d;
-    const auto albedo = ggx_albedo_lanes(d, ggx_albedo_table(), hn::Load(d, n_dot_v.lane), hn::Load(d, roughness.lane));
+    const auto albedo = ggx_lobe(d, ggx_reflection_table(), hn::Load(d, n_dot_v.lane), hn::Load(d, roughness.lane));
     hn::Store(albedo.scale, d, scale_out.lane);
     hn::Store(albedo.bias, d, bias_out.lane);
 }

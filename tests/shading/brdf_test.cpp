@@ -116,11 +116,11 @@ TEST(GgxAlbedo, TableAgreesWithTheIntegral) {
     for (double roughness = 0.05; roughness <= 1.0; roughness += 0.0475)
         for (double n_dot_v : {0.03, 0.07, 0.15, 0.31, 0.52, 0.77, 0.93, 1.0}) {
             const glm::vec2 found = ggx_albedo(float(n_dot_v), float(roughness));
-            const auto expected = integrate_ggx_albedo(n_dot_v, roughness * roughness);
-            const double error = std::max(std::fabs(found.x - expected[0]), std::fabs(found.y - expected[1]));
+            const GgxReflection expected = integrate_ggx_reflection(n_dot_v, roughness * roughness);
+            const double error = std::max(std::fabs(found.x - expected.scale), std::fabs(found.y - expected.bias));
             worst = std::max(worst, error);
             EXPECT_LT(error, 4e-3) << "n.v " << n_dot_v << " roughness " << roughness << ": " << found.x << ' ' << found.y << ", integral "
-                                   << expected[0] << ' ' << expected[1];
+                                   << expected.scale << ' ' << expected.bias;
         }
     RecordProperty("worst_error", std::to_string(worst));
 }
@@ -132,11 +132,37 @@ TEST(GgxAlbedo, IntegralAgreesWithAnIndependentQuadrature) {
             s.base = glm::dvec3(1.0, 0.5, 0.0);
             s.metallic = 1.0;
             s.roughness = roughness;
-            const auto terms = integrate_ggx_albedo(n_dot_v, roughness * roughness);
+            const GgxReflection terms = integrate_ggx_reflection(n_dot_v, roughness * roughness);
             const glm::dvec3 expected = reference::directional_albedo(s, n_dot_v);
             for (int c = 0; c < 3; ++c)
-                EXPECT_NEAR(s.base[c] * terms[0] + terms[1], expected[c], 1.5e-3)
+                EXPECT_NEAR(s.base[c] * terms.scale + terms.bias, expected[c], 1.5e-3)
                     << "roughness " << roughness << " n.v " << n_dot_v << " F0 " << s.base[c];
+        }
+}
+
+TEST(GgxReflection, LeansToTheMeanDirectionOfRoughSurfaces) {
+    // The axis and length of the mean are those of light drawn from the model itself.
+    for (const double roughness : {0.5, 0.7, 1.0})
+        for (const double n_dot_v : {0.2, 0.5, 0.8}) {
+            reference::Surface s;
+            s.metallic = 1.0;
+            s.roughness = roughness;
+            s.view = {std::sqrt(1.0 - n_dot_v * n_dot_v), 0.0, n_dot_v};
+            glm::dvec3 mean(0.0);
+            double weight = 0.0;
+            constexpr int kSteps = 600;
+            for (int i = 0; i < kSteps; ++i)
+                for (int j = 0; j < kSteps; ++j) {
+                    const double z = (i + 0.5) / kSteps, azimuth = 2.0 * 3.14159265358979 * (j + 0.5) / kSteps,
+                                 radius = std::sqrt(1.0 - z * z);
+                    const glm::dvec3 light(radius * std::cos(azimuth), radius * std::sin(azimuth), z);
+                    const double share = reference::brdf_cosine(s, light).x;
+                    mean += light * share;
+                    weight += share;
+                }
+            const GgxReflection found = integrate_ggx_reflection(n_dot_v, roughness * roughness);
+            EXPECT_NEAR(found.mean_outwards, -mean.x / weight, 2e-3) << "roughness " << roughness << " n.v " << n_dot_v;
+            EXPECT_NEAR(found.mean_up, mean.z / weight, 2e-3) << "roughness " << roughness << " n.v " << n_dot_v;
         }
 }
 

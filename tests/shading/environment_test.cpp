@@ -158,6 +158,54 @@ TEST(EnvironmentLight, OfASmallBrightSunIsWithinOnePercentInTheMean) {
     }
 }
 
+/// Root mean square error of whole surfaces under the sky, over views from all sides, relative to the light they reflect.
+double surface_error(const reference::Surface& material, double n_dot_v) {
+    Lighting lighting;
+    lighting.environment = std::shared_ptr<const Environment>(&sky_environment(), [](const Environment*) {});
+    Errors errors;
+    constexpr int kViews = 24;
+    for (int k = 0; k < kViews; ++k) {
+        reference::Surface s = material;
+        s.normal = reference::spiral_direction(k, kViews);
+        const glm::dvec3 across = reference::tangent_of(s.normal), along = glm::cross(s.normal, across);
+        const double turn = 1.7 * k, sine = std::sqrt(1.0 - n_dot_v * n_dot_v);
+        s.view = s.normal * n_dot_v + (across * std::cos(turn) + along * std::sin(turn)) * sine;
+        errors.add(shaded(lighting, s), reference::reflected_light(sky(), s, 2048));
+    }
+    return errors.rms();
+}
+
+TEST(EnvironmentLight, OnDielectricsIsWithinOnePercentUnlessSeenAtAnAngle) {
+    for (const double roughness : {0.1, 0.3, 0.5, 0.7, 1.0})
+        for (const double n_dot_v : {1.0, 0.7, 0.4, 0.2}) {
+            reference::Surface s;
+            s.base = {0.8, 0.6, 0.4};
+            s.roughness = roughness;
+            const double error = surface_error(s, n_dot_v);
+            EXPECT_LT(error, n_dot_v > 0.5 ? 0.01 : 0.04) << "roughness " << roughness << " n.v " << n_dot_v;
+        }
+}
+
+TEST(EnvironmentLight, OnMetalsKeepsTheTabulatedErrorOfOneLobePerReflection) {
+    // One zonal lobe stands for a reflection that is stretched at grazing angles and cut off at the horizon: exact along the normal of
+    // smooth metals, some per cent at an angle.
+    const double angles[] = {1.0, 0.9, 0.75, 0.5, 0.3, 0.15};
+    const double bounds[] = {0.025, 0.03, 0.045, 0.065, 0.085, 0.12};
+    std::printf("  sky, n.v     1.00   0.90   0.75   0.50   0.30   0.15\n");
+    for (const double roughness : {0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0}) {
+        std::printf("  roughness %.1f", roughness);
+        for (size_t i = 0; i < std::size(angles); ++i) {
+            reference::Surface s;
+            s.metallic = 1.0;
+            s.roughness = roughness;
+            const double error = surface_error(s, angles[i]);
+            std::printf(" %5.1f%%", 100.0 * error);
+            EXPECT_LT(error, bounds[i]) << "roughness " << roughness << " n.v " << angles[i];
+        }
+        std::printf("\n");
+    }
+}
+
 TEST(EnvironmentLight, DiffuseIsTheRoughestLobe) {
     for (int k = 0; k < 100; ++k) {
         const glm::vec3 n(reference::spiral_direction(k, 100));

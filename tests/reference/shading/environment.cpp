@@ -84,26 +84,36 @@ glm::dvec3 ImageIntegral::lobe(const glm::dvec3& normal, double alpha) const {
     return sum / weight;
 }
 
-glm::dvec3 reflected_light(const shading::Image& image, const glm::dvec3& normal, const glm::dvec3& view, double alpha, int count) {
-    const double nv = glm::dot(normal, view), a2 = alpha * alpha, smith_view = std::sqrt(nv * nv * (1.0 - a2) + a2);
-    const glm::dvec3 across = view - normal * nv;
-    const glm::dvec3 tangent = glm::dot(across, across) > 1e-12 ? glm::normalize(across) : tangent_of(normal),
-                     bitangent = glm::cross(normal, tangent);
-    const double vx = std::sqrt(std::max(0.0, 1.0 - nv * nv));
+glm::dvec3 reflected_light(const shading::Image& image, const Surface& s, int count) {
+    const double alpha = std::max(s.roughness * s.roughness, 1e-3), a2 = alpha * alpha, nv = glm::dot(s.normal, s.view);
+    const double vx = std::sqrt(std::max(0.0, 1.0 - nv * nv)), smith_view = std::sqrt(nv * nv * (1.0 - a2) + a2);
+    const glm::dvec3 f0 = glm::mix(glm::dvec3(0.04), s.base, s.metallic), diffuse = (1.0 - s.metallic) * s.base;
+    const glm::dvec3 v(vx, 0.0, nv), tangent = vx > 1e-6 ? glm::normalize(s.view - s.normal * nv) : tangent_of(s.normal);
+    const glm::dvec3 bitangent = glm::cross(s.normal, tangent);
+    const auto radiance = [&](const glm::dvec3& l) { return latlong_radiance(image, tangent * l.x + bitangent * l.y + s.normal * l.z); };
+    const auto fresnel = [&](double v_dot_h) { return f0 + (1.0 - f0) * std::pow(1.0 - v_dot_h, 5.0); };
+
     const glm::dvec3 stretched = glm::normalize(glm::dvec3(alpha * vx, 0.0, nv)), t1(0, 1, 0), t2 = glm::cross(stretched, t1);
     glm::dvec3 sum(0.0);
     for (int i = 0; i < count; ++i) {
         const glm::dvec2 point = hammersley(uint32_t(i), uint32_t(count));
-        const double radius = std::sqrt(point.x), azimuth = 2.0 * kPi * point.y, p1 = radius * std::cos(azimuth),
-                     share = 0.5 * (1.0 + stretched.z);
+        const double radius = std::sqrt(point.x), azimuth = 2.0 * kPi * point.y;
+
+        // Cosine-weighted light: the disk's point raised to the hemisphere.
+        const glm::dvec3 even(radius * std::cos(azimuth), radius * std::sin(azimuth), std::sqrt(1.0 - point.x));
+        if (s.metallic < 1.0) sum += radiance(even) * (1.0 - fresnel(std::sqrt(std::max(0.0, 0.5 + 0.5 * glm::dot(v, even))))) * diffuse;
+
+        // A visible normal, and light mirrored at it.
+        const double p1 = radius * std::cos(azimuth), share = 0.5 * (1.0 + stretched.z);
         const double p2 = (1.0 - share) * std::sqrt(1.0 - p1 * p1) + share * radius * std::sin(azimuth);
         const glm::dvec3 n = p1 * t1 + p2 * t2 + std::sqrt(std::max(0.0, 1.0 - p1 * p1 - p2 * p2)) * stretched;
         const glm::dvec3 half = glm::normalize(glm::dvec3(alpha * n.x, alpha * n.y, std::max(0.0, n.z)));
-        const glm::dvec3 v(vx, 0.0, nv), light = 2.0 * glm::dot(v, half) * half - v;
+        const double vh = glm::dot(v, half);
+        const glm::dvec3 light = 2.0 * vh * half - v;
         if (light.z <= 0.0) continue;
         const double smith_light = std::sqrt(light.z * light.z * (1.0 - a2) + a2);
         const double weight = light.z * (nv + smith_view) / (light.z * smith_view + nv * smith_light);  // G2 / G1
-        sum += latlong_radiance(image, tangent * light.x + bitangent * light.y + normal * light.z) * weight;
+        sum += radiance(light) * weight * fresnel(vh);
     }
     return sum / double(count);
 }

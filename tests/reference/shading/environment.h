@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shading/image.h"
+#include "tests/reference/shading/brdf.h"
 
 #include <glm/glm.hpp>
 
@@ -39,8 +40,8 @@ class ImageIntegral {
     std::vector<Point> points_;
 };
 
-/// Light that a mirror-like surface (F = 1, single-scattering GGX, height-correlated Smith) reflects towards `view`, by `count` visible
-/// normals (Heitz 2018).
-glm::dvec3 reflected_light(const shading::Image& image, const glm::dvec3& normal, const glm::dvec3& view, double alpha, int count);
+/// Light of the image that a surface reflects towards its view: the specular part by `count` visible normals (Heitz 2018), the diffuse part
+/// by as many cosine-weighted directions.
+glm::dvec3 reflected_light(const shading::Image& image, const Surface& surface, int count);
 
 }  // namespace rawtexel::reference
