@@ -123,6 +123,13 @@ void SampleTree::sum(size_t first, std::span<double> sum) const {
 void SampleTree::mean(size_t first, std::span<float> mean) const {
     const auto count = double(samples());
     assert(count > 0);
+    assert(first + mean.size() <= width_);
+    // A single range of floats holds a power of two of samples: the division is exact in float too.
+    if (ranges_.size() == 1 && ranges_[0].level <= kFloatLevels) {
+        const float share = float(1.0 / count);
+        for (size_t i = 0; i < mean.size(); ++i) mean[i] = ranges_[0].low[first + i] * share;
+        return;
+    }
     // In pieces that stay in the first-level cache.
     std::array<double, 512> piece;
     for (size_t done = 0; done < mean.size(); done += piece.size()) {

@@ -96,8 +96,7 @@ class AlphaCoverage {
             const auto x = hn::Add(hn::Set(du, uint32_t(candidate.x)), hn::And(lane, hn::Set(du, 7)));
             const auto y = hn::Add(hn::Set(du, uint32_t(candidate.y)), hn::ShiftRight<3>(lane));
             const auto bits = random::random_bits_v(du, seed_, sample_, x, y, surface, texunit::Dimension::Coverage);
-            const auto number = hn::Mul(hn::ConvertTo(d, hn::BitCast(IntLanes(), hn::ShiftRight<8>(bits))), hn::Set(d, 0x1p-24f));
-            mask |= wave_mask_bits(hn::Lt(number, hn::Load(d, alpha_.lane + i)), i);
+            mask |= wave_mask_bits(hn::Lt(random::unit_float_v(du, bits), hn::Load(d, alpha_.lane + i)), i);
         }
         return mask;
     }

@@ -15,6 +15,7 @@
 #include "shading/material-inl.h"
 #include "shading/tile.h"
 
+#include <algorithm>
 #include <bit>
 #include <chrono>
 
@@ -29,7 +30,8 @@ struct PixelWave {
     WaveMask inside = 0;              ///< pixels that are to be rendered
     alignas(64) raster::SampleOffset offset[texunit::kWaveLanes];
     alignas(64) uint32_t setup_index[texunit::kWaveLanes];
-    WaveVector direction;             ///< unit, from the eye through the sample points
+    bool has_directions = false;
+    WaveVector direction;             ///< unit, from the eye through the sample points; found when first asked for
 };
 
 template <class Count>
@@ -76,9 +78,13 @@ class TileRenderer {
 
     void find_offsets(uint32_t sample) {
         const PixelFilter filter = inputs_.pixel_filter;
-        frame_offset_ = sample_offset(filter, PixelJitter::Frame, sample, sequence_shift(PixelJitter::Frame, 0, 0, inputs_.seed));
-        if (inputs_.pixel_jitter != PixelJitter::Pixel) return;
-        for (size_t i = 0; i < scratch_.offsets.size(); ++i) scratch_.offsets[i] = sample_offset(filter, PixelJitter::Pixel, sample, scratch_.shifts[i]);
+        if (inputs_.pixel_jitter == PixelJitter::Pixel) {
+            for (size_t i = 0; i < scratch_.offsets.size(); ++i)
+                scratch_.offsets[i] = sample_offset(filter, PixelJitter::Pixel, sample, scratch_.shifts[i]);
+        } else {
+            frame_offset_ = sample_offset(filter, PixelJitter::Frame, sample, sequence_shift(PixelJitter::Frame, 0, 0, inputs_.seed));
+            std::fill_n(wave_.offset, texunit::kWaveLanes, frame_offset_);
+        }
     }
 
     void find_visible(uint32_t sample) {
@@ -112,24 +118,40 @@ class TileRenderer {
 
     /// The wave at pixel (x, y) of the tile.
     void shade_wave(int x, int y) {
-        load_offsets(x, y);
-        find_directions();
+        load_pixels(x, y);
         clear_planes();
-        const WaveMask surface = load_triangles(x, y);
+        const WaveMask surface = wave_.inside & lanes_with_triangle();
         scratch_.totals.samples_shaded += uint64_t(std::popcount(surface));
         if (surface != 0) shade_surfaces(surface);
         if (wave_.inside & ~surface) shade_background(wave_.inside & ~surface);
         if (inputs_.planes.texels >= 0) store_texels();
     }
 
-    void load_offsets(int x, int y) {
-        for (int lane = 0; lane < texunit::kWaveLanes; ++lane) {
-            const size_t pixel = size_t((y + lane / texunit::kWaveWidth) * tile_size_ + x + lane % texunit::kWaveWidth);
-            wave_.offset[lane] = inputs_.pixel_jitter == PixelJitter::Pixel ? scratch_.offsets[pixel] : frame_offset_;
+    /// What the tile's arrays hold for the wave's pixels.
+    void load_pixels(int x, int y) {
+        wave_.has_directions = false;
+        for (int row = 0; row < texunit::kWaveHeight; ++row) {
+            const size_t pixel = size_t((y + row) * tile_size_ + x);
+            const int lane = row * texunit::kWaveWidth;
+            std::copy_n(&scratch_.visibility.triangle[pixel], texunit::kWaveWidth, wave_.setup_index + lane);
+            if (inputs_.pixel_jitter == PixelJitter::Pixel) std::copy_n(&scratch_.offsets[pixel], texunit::kWaveWidth, wave_.offset + lane);
         }
     }
 
+    WaveMask lanes_with_triangle() const { return ~lanes_that_see(raster::kNoTriangle); }
+
+    WaveMask lanes_that_see(uint32_t setup_index) const {
+        const FloatLanes d;
+        const UintLanes du;
+        WaveMask mask = 0;
+        for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d))
+            mask |= wave_mask_bits(hn::RebindMask(d, hn::Eq(hn::Load(du, wave_.setup_index + i), hn::Set(du, setup_index))), i);
+        return mask;
+    }
+
     void find_directions() {
+        if (wave_.has_directions) return;
+        wave_.has_directions = true;
         const FloatLanes d;
         WaveFloat px, py;
         for (int lane = 0; lane < texunit::kWaveLanes; ++lane) {
@@ -151,38 +173,35 @@ class TileRenderer {
         if (inputs_.planes.material >= 0) std::fill_n(first_sample_plane(inputs_.planes.material, wave_.index).lane, texunit::kWaveLanes, -1.0f);
     }
 
-    /// Returns the lanes that see a triangle.
-    WaveMask load_triangles(int x, int y) {
-        WaveMask surface = 0;
-        for (int lane = 0; lane < texunit::kWaveLanes; ++lane) {
-            const size_t pixel = size_t((y + lane / texunit::kWaveWidth) * tile_size_ + x + lane % texunit::kWaveWidth);
-            wave_.setup_index[lane] = scratch_.visibility.triangle[pixel];
-            surface |= WaveMask(wave_.setup_index[lane] != raster::kNoTriangle) << lane;
-        }
-        return surface & wave_.inside;
-    }
-
     /// One masked pass per draw that the wave sees.
     void shade_surfaces(WaveMask surface) {
         raster::HWY_NAMESPACE::barycentric_wave(frame_, wave_.setup_index, wave_.offset, wave_.x, wave_.y, surface, weights_);
         clamp_weights(weights_);
         for (WaveMask rest = surface; rest != 0;) {
             const uint32_t first = wave_.setup_index[std::countr_zero(rest)];
-            const uint32_t draw = frame_.triangle(first).draw;
-            WaveMask pass = 0;
-            bool one_triangle = true;
-            for (WaveMask lanes = rest; lanes != 0; lanes &= lanes - 1) {
-                const int lane = std::countr_zero(lanes);
-                const raster::SetupTriangle& triangle = frame_.triangle(wave_.setup_index[lane]);
-                if (triangle.draw != draw) continue;
-                pass |= WaveMask(1) << lane;
-                one_triangle &= wave_.setup_index[lane] == first;
-                fragment_.facing[lane] = triangle.front_facing ? 1.0f : -1.0f;
-            }
+            const raster::SetupTriangle& triangle = frame_.triangle(first);
+            WaveMask pass = rest & lanes_that_see(first);
+            store_value(facing_of(triangle), texunit::kWaveFull, fragment_.facing);
+            const bool one_triangle = pass == rest || !add_lanes_of_draw(triangle.draw, rest, pass);
             rest &= ~pass;
-            interpolate(inputs_.draws[draw], pass, one_triangle);
-            shade_pass(inputs_.draws[draw], pass);
+            interpolate(inputs_.draws[triangle.draw], pass, one_triangle);
+            shade_pass(inputs_.draws[triangle.draw], pass);
         }
+    }
+
+    static float facing_of(const raster::SetupTriangle& triangle) { return triangle.front_facing ? 1.0f : -1.0f; }
+
+    /// Adds to `pass` the lanes of `rest` that see other triangles of the draw; returns whether there are any.
+    bool add_lanes_of_draw(uint32_t draw, WaveMask rest, WaveMask& pass) {
+        const WaveMask before = pass;
+        for (WaveMask lanes = rest & ~pass; lanes != 0; lanes &= lanes - 1) {
+            const int lane = std::countr_zero(lanes);
+            const raster::SetupTriangle& triangle = frame_.triangle(wave_.setup_index[lane]);
+            if (triangle.draw != draw) continue;
+            pass |= WaveMask(1) << lane;
+            fragment_.facing[lane] = facing_of(triangle);
+        }
+        return pass != before;
     }
 
     void interpolate(const DrawState& draw, WaveMask pass, bool one_triangle) {
@@ -222,6 +241,7 @@ class TileRenderer {
     }
 
     void turn_to_viewer() {
+        find_directions();
         const FloatLanes d;
         const auto minus = hn::Set(d, -1.0f);
         for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) store3(d, scale(load3(d, wave_.direction, i), minus), surface_.view, i);
@@ -233,6 +253,7 @@ class TileRenderer {
             store_value(inputs_.background->y, mask, plane(1, wave_.index));
             store_value(inputs_.background->z, mask, plane(2, wave_.index));
         } else if (inputs_.lighting->environment) {
+            find_directions();
             environment_radiance_lanes(*inputs_.lighting->environment, wave_.direction, mask, radiance_);
             store_vector(radiance_, mask, TilePlanes::kRadiance, wave_.index);
         } else {

@@ -1,6 +1,7 @@
 #include "shading/tile_resolve.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace rawtexel::shading {
 namespace {
@@ -32,7 +33,7 @@ Layer make_layer(Aov aov, int width, int height) {
 }
 
 TileResolver::TileResolver(const TileInputs& inputs)
-    : inputs_(inputs), tile_size_(inputs.frame->options().tile_size), pixels_(size_t(tile_size_) * size_t(tile_size_)), values_(pixels_) {
+    : inputs_(inputs), tile_size_(inputs.frame->options().tile_size), pixels_(size_t(tile_size_) * size_t(tile_size_)), values_(3 * pixels_) {
     if (inputs.planes.hits < 0) return;
     sums_.resize(pixels_);
     hits_.resize(pixels_);
@@ -61,41 +62,52 @@ void TileResolver::resolve_layer(Aov aov, const TileScratch& tile, Image& image)
         case Aov::Spp: break;
     }
     std::fill(values_.begin(), values_.end(), float(tile.sums.samples()));
-    put(0, image);
+    put(image);
 }
 
 void TileResolver::put_means(const SampleTree& sums, int first_plane, Image& image) {
-    for (int channel = 0; channel < image.channels; ++channel) {
-        sums.mean(size_t(first_plane + channel) * pixels_, values_);
-        put(channel, image);
-    }
+    sums.mean(size_t(first_plane) * pixels_, values(image.channels));
+    put(image);
 }
 
 void TileResolver::put_surface_means(const SampleTree& sums, int first_plane, Image& image) {
     sums.sum(size_t(inputs_.planes.hits) * pixels_, hits_);
     for (int channel = 0; channel < image.channels; ++channel) {
         sums.sum(size_t(first_plane + channel) * pixels_, sums_);
-        for (size_t i = 0; i < pixels_; ++i) values_[i] = hits_[i] > 0.0 ? float(sums_[i] / hits_[i]) : 0.0f;
-        put(channel, image);
+        float* value = &values_[size_t(channel) * pixels_];
+        for (size_t i = 0; i < pixels_; ++i) value[i] = hits_[i] > 0.0 ? float(sums_[i] / hits_[i]) : 0.0f;
     }
+    put(image);
 }
 
 void TileResolver::put_first_sample(const TileScratch& tile, int plane, Image& image) {
     const size_t waves = pixels_ / kWaveLanes;
     for (size_t wave = 0; wave < waves; ++wave)
         std::copy_n(tile.first_sample[size_t(plane) * waves + wave].lane, kWaveLanes, &values_[wave * kWaveLanes]);
-    put(0, image);
+    put(image);
 }
 
-void TileResolver::put(int channel, Image& image) const {
+void TileResolver::put(Image& image) const {
+    switch (image.channels) {
+        case 1: return put_channels<1>(image);
+        case 2: return put_channels<2>(image);
+        case 3: return put_channels<3>(image);
+        default: assert(false);
+    }
+}
+
+template <int kChannels>
+void TileResolver::put_channels(Image& image) const {
     const int waves_x = tile_size_ / kWaveWidth;
-    for (int y = rect_.y0; y < rect_.y1; ++y) {
-        const int tile_y = y - origin_y_;
-        float* out = image.pixel(rect_.x0 - inputs_.visible.x0, y - inputs_.visible.y0) + channel;
-        for (int x = rect_.x0; x < rect_.x1; ++x, out += image.channels) {
-            const int tile_x = x - origin_x_;
-            const int wave = tile_y / kWaveHeight * waves_x + tile_x / kWaveWidth;
-            *out = values_[size_t(wave * kWaveLanes + tile_y % kWaveHeight * kWaveWidth + tile_x % kWaveWidth)];
+    const int x0 = rect_.x0 - origin_x_, x1 = rect_.x1 - origin_x_;
+    for (int y = rect_.y0 - origin_y_; y < rect_.y1 - origin_y_; ++y) {
+        float* out = image.pixel(rect_.x0 - inputs_.visible.x0, origin_y_ + y - inputs_.visible.y0);
+        const float* row = &values_[size_t(y / kWaveHeight * waves_x * kWaveLanes + y % kWaveHeight * kWaveWidth)];
+        for (int wave = x0 / kWaveWidth; wave * kWaveWidth < x1; ++wave) {
+            const float* value = row + size_t(wave * kWaveLanes);
+            const int first = std::max(x0 - wave * kWaveWidth, 0), last = std::min(x1 - wave * kWaveWidth, kWaveWidth);
+            for (int i = first; i < last; ++i)
+                for (int channel = 0; channel < kChannels; ++channel) *out++ = value[size_t(channel) * pixels_ + size_t(i)];
         }
     }
 }

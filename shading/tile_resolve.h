@@ -25,15 +25,18 @@ class TileResolver {
     void put_means(const SampleTree& sums, int first_plane, Image& image);
     void put_surface_means(const SampleTree& sums, int first_plane, Image& image);
     void put_first_sample(const TileScratch& tile, int plane, Image& image);
-    /// values_ to one channel of the image.
-    void put(int channel, Image& image) const;
+    std::span<float> values(int channels) { return std::span(values_).first(size_t(channels) * pixels_); }
+    /// values_ to the image, a plane per channel.
+    void put(Image& image) const;
+    template <int kChannels>
+    void put_channels(Image& image) const;
 
     const TileInputs& inputs_;
     int tile_size_;
     size_t pixels_;               ///< of a tile
     PixelRect rect_;              ///< of the tile at hand that is visible
     int origin_x_ = 0, origin_y_ = 0;
-    std::vector<float> values_;   ///< of one plane, in the order of waves
+    std::vector<float> values_;   ///< of up to three planes, in the order of waves
     std::vector<double> sums_, hits_;
 };
 

@@ -225,7 +225,9 @@ TEST_F(MaterialTest, KeepsTheNormalWhereTheMappingIsDegenerate) {
     scene.textures = {make_texture(1, 1, [](int, int) { return glm::vec4(0.9f, 0.7f, 0.8f, 1.0f); })};
     Mesh mesh = make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, {0.0f, 0.0f});
     add_object(scene, mesh, bumpy_material());
-    EXPECT_EQ(pixel(layer_of(scene, Aov::Normal), 10, 40), glm::vec3(0, 0, 1));
+    EXPECT_EQ(pixel(layer_of(scene, Aov::Normal), 10, 40), glm::vec3(0, 0, 1)) << "one point";
+    scene.meshes[0].uv[0] = {{0, 0}, {1, 1}, {2, 2}, {1, 1}};
+    EXPECT_EQ(pixel(layer_of(scene, Aov::Normal), 10, 40), glm::vec3(0, 0, 1)) << "a line";
 }
 
 TEST_F(MaterialTest, ScalesTheNormalMap) {
