@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.22)
 # With the include folders of room ROOM, headers of the rooms it may know compile and all others are not found.
 set(knows_texunit texunit)
 set(knows_raster raster)
