@@ -1,5 +1,5 @@
 // Affine shading: converged renders against the double-precision reference renderer.
-#include "reference/shading/unlit_reference.h"
+#include "tests/reference/shading/unlit_reference.h"
 
 #include "scene_parts.h"
 #include "shading/camera.h"
