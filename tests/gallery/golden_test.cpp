@@ -41,11 +41,12 @@ TEST_P(Gallery, looks_as_it_did) {
     EXPECT_LE(off, test.values.size() / 1000) << "values off by more than 1/255 of " << test.values.size() << ", " << scene;
 }
 
-INSTANTIATE_TEST_SUITE_P(Builtin, Gallery, testing::ValuesIn(scenes::builtin_scenes().begin(), scenes::builtin_scenes().end()),
-                         [](const testing::TestParamInfo<scenes::BuiltinScene>& info) {
-                             std::string name(info.param.name);
-                             for (char& c : name) c = c == '-' ? '_' : c;
-                             return name;
-                         });
+std::string test_name(const testing::TestParamInfo<scenes::BuiltinScene>& scene) {
+    std::string name(scene.param.name);
+    for (char& c : name) c = c == '-' ? '_' : c;
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Builtin, Gallery, testing::ValuesIn(scenes::builtin_scenes().begin(), scenes::builtin_scenes().end()), test_name);
 
 }  // namespace
