@@ -106,10 +106,10 @@ class AlphaCoverage {
     PixelRect visible_;
     uint32_t seed_;
     uint32_t sample_ = 0;
-    raster::BarycentricWave weights_;
-    texunit::WaveCoordinates coordinates_;
-    texunit::WaveColor color_;
-    WaveFloat alpha_;
+    raster::BarycentricWave weights_{};
+    texunit::WaveCoordinates coordinates_{};
+    texunit::WaveColor color_{};
+    WaveFloat alpha_{};
 };
 
 }  // namespace HWY_NAMESPACE

@@ -80,6 +80,7 @@ TileTotals render_tiles(const TileInputs& inputs, size_t texture_count, std::spa
 }  // namespace
 
 RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOptions& options, Executor& executor, const Progress& progress) {
+    assert(options.width > 0 && options.height > 0 && options.spp > 0);
     const Clock::time_point start = Clock::now();
     const PixelRect visible = visible_pixels(options);
     const bool indirect_light = lighting.environment != nullptr || lighting.ambient != 0.0f;

@@ -306,12 +306,13 @@ class TileRenderer {
     AlphaCoverage<Count> coverage_;
     raster::SampleOffset frame_offset_;
     bool first_sample_ = false;
-    PixelWave wave_;
-    raster::BarycentricWave weights_;
-    FragmentWave fragment_;
-    MapColors maps_;
-    SurfaceWave surface_;
-    WaveVector radiance_;
+    // Lanes that nobody asked for are computed along with their neighbours, so they hold numbers from the start.
+    PixelWave wave_{};
+    raster::BarycentricWave weights_{};
+    FragmentWave fragment_{};
+    MapColors maps_{};
+    SurfaceWave surface_{};
+    WaveVector radiance_{};
 };
 
 }  // namespace HWY_NAMESPACE
