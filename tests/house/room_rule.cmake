@@ -11,6 +11,8 @@ set(door_scenes scenes/tangents.h)
 set(door_cli cli/metrics/metrics.h)
 
 file(READ "${INCLUDES}" directories)
+list(REMOVE_ITEM directories "")
+list(REMOVE_DUPLICATES directories)
 list(TRANSFORM directories PREPEND "-I")
 set(source "${WORK}/${ROOM}_rule.cpp")
 foreach(other texunit raster shading scenes cli)
