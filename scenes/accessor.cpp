@@ -31,7 +31,7 @@ const char* name_of(ComponentType type) {
 
 struct ElementType {
     const char* name;
-    int components, columns;   // columns start on multiples of 4 bytes (3.6.2.4)
+    int components, columns;  // columns start on multiples of 4 bytes (3.6.2.4)
 };
 
 ElementType element_type(int tinygltf_type) {
@@ -79,17 +79,13 @@ uint32_t load_unsigned(ComponentType type, const std::byte* bytes) {
     }
 }
 
-uint32_t load_integer(const Accessor& accessor, const std::byte* bytes) {
-    return load_unsigned(accessor.component_type, bytes);
-}
+uint32_t load_integer(const Accessor& accessor, const std::byte* bytes) { return load_unsigned(accessor.component_type, bytes); }
 
 bool is_unsigned(ComponentType type) {
     return type == ComponentType::Uint8 || type == ComponentType::Uint16 || type == ComponentType::Uint32;
 }
 
-std::string name_of(int accessor) {
-    return "accessors[" + std::to_string(accessor) + "]";
-}
+std::string name_of(int accessor) { return "accessors[" + std::to_string(accessor) + "]"; }
 
 }  // namespace
 
@@ -115,8 +111,8 @@ Accessor Accessors::checked(int index) const {
         uint64_t held = 0;
         for (const GltfBuffer& buffer : document_.buffers) held += buffer.bytes.size();
         if (accessor.count > held + kFreeZeros)
-            document_.fail(name_of(index) + " has " + std::to_string(accessor.count) + " elements without a buffer view (allowed: " +
-                           std::to_string(held + kFreeZeros) + ")");
+            document_.fail(name_of(index) + " has " + std::to_string(accessor.count) +
+                           " elements without a buffer view (allowed: " + std::to_string(held + kFreeZeros) + ")");
     } else {
         const std::span<const std::byte> view = document_.view(source.bufferView);
         const uint64_t declared_stride = document_.model.bufferViews[size_t(source.bufferView)].byteStride;
@@ -166,7 +162,8 @@ void Accessors::check_sparse(Accessor& accessor, int index, uint64_t element_siz
 std::vector<uint32_t> Accessors::sparse_elements(const Accessor& accessor) const {
     std::vector<uint32_t> elements(accessor.sparse_count);
     const uint64_t size = bytes_of(accessor.sparse_index_type);
-    for (size_t i = 0; i < elements.size(); ++i) elements[i] = load_unsigned(accessor.sparse_index_type, accessor.sparse_indices + i * size);
+    for (size_t i = 0; i < elements.size(); ++i)
+        elements[i] = load_unsigned(accessor.sparse_index_type, accessor.sparse_indices + i * size);
     return elements;
 }
 
@@ -199,10 +196,14 @@ std::vector<float> Accessors::read_floats(const Accessor& accessor, std::span<co
     }
     const bool is_float = accessor.component_type == ComponentType::Float;
     const bool small_integer = !is_float && accessor.component_type != ComponentType::Uint32;
-    const bool allowed = is_float || (small_integer && (use.integers == Integers::Any || (use.integers == Integers::Normalized && accessor.normalized)));
+    const bool allowed =
+        is_float || (small_integer && (use.integers == Integers::Any || (use.integers == Integers::Normalized && accessor.normalized)));
     if (!allowed)
         document_.fail(use.what + " is " + found + " (allowed: float" +
-                       (use.integers == Integers::No ? "" : use.integers == Integers::Any ? ", 8-bit, 16-bit" : ", normalized 8-bit, 16-bit") + ")");
+                       (use.integers == Integers::No    ? ""
+                        : use.integers == Integers::Any ? ", 8-bit, 16-bit"
+                                                        : ", normalized 8-bit, 16-bit") +
+                       ")");
 
     std::vector<float> values = gather<float>(accessor, elements, load_float);
     const auto bad = std::ranges::find_if(values, [](float v) { return !std::isfinite(v); });
@@ -214,10 +215,11 @@ std::vector<float> Accessors::read_floats(const Accessor& accessor, std::span<co
     return values;
 }
 
-std::vector<uint32_t> Accessors::read_integers(const Accessor& accessor, std::span<const uint32_t> elements, const std::string& what) const {
+std::vector<uint32_t> Accessors::read_integers(const Accessor& accessor, std::span<const uint32_t> elements,
+                                               const std::string& what) const {
     if (!is_unsigned(accessor.component_type) || accessor.normalized)
-        document_.fail(what + " is " + accessor.type + " of " + (accessor.normalized ? "normalized " : "") + name_of(accessor.component_type) +
-                       " (allowed: unsigned integers)");
+        document_.fail(what + " is " + accessor.type + " of " + (accessor.normalized ? "normalized " : "") +
+                       name_of(accessor.component_type) + " (allowed: unsigned integers)");
     return gather<uint32_t>(accessor, elements, load_integer);
 }
 

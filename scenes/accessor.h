@@ -15,18 +15,18 @@ enum class ComponentType : int { Int8 = 5120, Uint8 = 5121, Int16 = 5122, Uint16
 /// One accessor with its ranges checked: every element below `count` may be read.
 struct Accessor {
     int index = 0;
-    std::string type;                       ///< SCALAR, VEC2, …
+    std::string type;  ///< SCALAR, VEC2, …
     ComponentType component_type = ComponentType::Float;
     bool normalized = false;
     int components = 1;
     uint64_t count = 0;
-    const std::byte* base = nullptr;        ///< null: zeros
-    uint64_t stride = 0;                    ///< bytes
+    const std::byte* base = nullptr;  ///< null: zeros
+    uint64_t stride = 0;              ///< bytes
 
     uint64_t sparse_count = 0;
     ComponentType sparse_index_type = ComponentType::Uint32;
     const std::byte* sparse_indices = nullptr;
-    const std::byte* sparse_values = nullptr;   ///< tightly packed
+    const std::byte* sparse_values = nullptr;  ///< tightly packed
 };
 
 /// Integer components: none, only as fractions ("normalized"), or also as they are (KHR_mesh_quantization).
@@ -34,8 +34,8 @@ enum class Integers { No, Normalized, Any };
 
 /// What an attribute may be.
 struct AccessorUse {
-    std::string what;                       ///< for messages: "meshes[0].primitives[0].attributes.NORMAL"
-    std::vector<int> components;            ///< allowed numbers of them
+    std::string what;             ///< for messages: "meshes[0].primitives[0].attributes.NORMAL"
+    std::vector<int> components;  ///< allowed numbers of them
     Integers integers = Integers::No;
 };
 

@@ -8,7 +8,7 @@ namespace rawtexel::scenes {
 namespace {
 
 using Bytes = std::span<const std::byte>;
-constexpr uint32_t kJsonChunk = 0x4e4f534a, kBinChunk = 0x004e4942;   // "JSON", "BIN\0"
+constexpr uint32_t kJsonChunk = 0x4e4f534a, kBinChunk = 0x004e4942;  // "JSON", "BIN\0"
 constexpr size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 
 uint32_t little_endian_32(Bytes bytes, size_t offset) {
@@ -17,9 +17,7 @@ uint32_t little_endian_32(Bytes bytes, size_t offset) {
     return value;
 }
 
-std::string_view text_of(Bytes bytes) {
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
+std::string_view text_of(Bytes bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
 struct Chunk {
     uint32_t type;
@@ -40,12 +38,13 @@ Chunk next_chunk(const std::string& path, Bytes& rest) {
 }
 
 GltfContainer split_glb(const std::string& path, Bytes file) {
-    if (file.size() < kHeaderBytes) throw InputError(path + ": truncated GLB (" + std::to_string(file.size()) + " bytes, its header takes 12)");
+    if (file.size() < kHeaderBytes)
+        throw InputError(path + ": truncated GLB (" + std::to_string(file.size()) + " bytes, its header takes 12)");
     const uint32_t version = little_endian_32(file, 4), length = little_endian_32(file, 8);
     if (version != 2) throw InputError(path + ": GLB version " + std::to_string(version) + " (allowed: 2)");
     if (length > file.size() || length < kHeaderBytes)
-        throw InputError(path + ": truncated GLB (it declares " + std::to_string(length) + " bytes, the file has " + std::to_string(file.size()) +
-                         ")");
+        throw InputError(path + ": truncated GLB (it declares " + std::to_string(length) + " bytes, the file has " +
+                         std::to_string(file.size()) + ")");
     Bytes rest = file.subspan(kHeaderBytes, length - kHeaderBytes);
     const Chunk json = next_chunk(path, rest);
     if (json.type != kJsonChunk) throw InputError(path + ": GLB without JSON (its first chunk must hold it)");

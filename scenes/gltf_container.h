@@ -11,7 +11,7 @@ namespace rawtexel::scenes {
 
 struct GltfContainer {
     std::string_view json;
-    std::optional<std::span<const std::byte>> binary;   ///< the BIN chunk
+    std::optional<std::span<const std::byte>> binary;  ///< the BIN chunk
 };
 
 /// Told by the first bytes, whatever the file is called. Throws InputError naming `path`.

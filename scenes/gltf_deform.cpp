@@ -14,7 +14,8 @@ void add_scaled(std::vector<Vector>& attribute, std::span<const float> values, i
         for (int c = 0; c < channels; ++c) attribute[i][c] += weight * values[i * size_t(channels) + size_t(c)];
 }
 
-/// The matrix that turns normals: inverse transposed, as cofactors, which exist for singular matrices too; the determinant's sign is left out.
+/// The matrix that turns normals: inverse transposed, as cofactors, which exist for singular matrices too; the determinant's sign is left
+/// out.
 glm::dmat3 normal_matrix(const glm::dmat3& m) {
     const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     return glm::dot(m[0], cofactors[0]) < 0.0 ? -cofactors : cofactors;
@@ -133,8 +134,7 @@ void apply_skin(const GltfDocument& document, const Accessors& accessors, const 
         mirrored += glm::determinant(linear) < 0.0;
         mesh.positions[i] = glm::vec3(matrix * glm::dvec4(mesh.positions[i], 1.0));
         if (!mesh.normals.empty()) mesh.normals[i] = unit_or_zero(normal_matrix(linear) * glm::dvec3(mesh.normals[i]));
-        if (!mesh.tangents.empty())
-            mesh.tangents[i] = glm::vec4(unit_or_zero(linear * glm::dvec3(mesh.tangents[i])), mesh.tangents[i].w);
+        if (!mesh.tangents.empty()) mesh.tangents[i] = glm::vec4(unit_or_zero(linear * glm::dvec3(mesh.tangents[i])), mesh.tangents[i].w);
     }
     // Mirrored, the triangles would turn their backs: an instance's negative determinant is not there to tell.
     if (2 * mirrored > mesh.positions.size()) {

@@ -12,7 +12,7 @@
 
 namespace rawtexel::scenes {
 
-using AttributeMap = std::map<std::string, int>;   ///< name to accessor, as tinygltf keeps it
+using AttributeMap = std::map<std::string, int>;  ///< name to accessor, as tinygltf keeps it
 
 /// Adds each target times its weight to the mesh's attributes (glTF 2.0, 3.7.2.2). `vertices` are the elements that the mesh's
 /// vertices come from; `what` names the primitive in messages.

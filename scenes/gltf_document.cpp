@@ -24,9 +24,7 @@ constexpr std::array<std::string_view, 7> kKnownExtensions = {
     "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_mesh_quantization",
     "KHR_texture_basisu",  "KHR_texture_transform",           "MSFT_texture_dds",
 };
-bool is_known(const std::string& extension) {
-    return std::ranges::find(kKnownExtensions, extension) != kKnownExtensions.end();
-}
+bool is_known(const std::string& extension) { return std::ranges::find(kKnownExtensions, extension) != kKnownExtensions.end(); }
 
 /// Nesting that no glTF needs; the parsers and everything after them recurse this deep at most.
 constexpr int kMaxNesting = 128;
@@ -37,7 +35,7 @@ int nesting(std::string_view text) {
     bool in_string = false;
     for (size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
-        if (in_string && c == '\\') ++i;   // the next character is escaped
+        if (in_string && c == '\\') ++i;  // the next character is escaped
         if (c == '"') in_string = !in_string;
         if (in_string) continue;
         if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
@@ -196,9 +194,7 @@ void MemoryAllowance::spend(uint64_t bytes) {
     left_ -= bytes;
 }
 
-void GltfDocument::fail(const std::string& what) const {
-    throw InputError(path + ": " + what);
-}
+void GltfDocument::fail(const std::string& what) const { throw InputError(path + ": " + what); }
 
 std::span<const std::byte> GltfDocument::view(int buffer_view) const {
     const tinygltf::BufferView& view = model.bufferViews[size_t(buffer_view)];
@@ -216,7 +212,8 @@ GltfDocument read_gltf_document(const std::string& path, const LoadOptions& opti
     const auto file = std::make_shared<const std::vector<std::byte>>(read_file(path));
     document.memory->grant(file->size());
     const GltfContainer container = split_gltf(path, *file);
-    if (container.json.size() > kMaxJsonBytes) document.fail("JSON of " + std::to_string(container.json.size()) + " bytes (allowed: 2 GiB)");
+    if (container.json.size() > kMaxJsonBytes)
+        document.fail("JSON of " + std::to_string(container.json.size()) + " bytes (allowed: 2 GiB)");
 
     const json original = parse_json(path, container.json);
     json checked;

@@ -23,8 +23,8 @@ struct GltfBuffer {
 
 /// An image as the file holds it.
 struct GltfImage {
-    std::string name;        ///< for messages and the texture: the image's own name, else its file's, else its number
-    std::string mime_type;   ///< as declared; may be empty
+    std::string name;       ///< for messages and the texture: the image's own name, else its file's, else its number
+    std::string mime_type;  ///< as declared; may be empty
     std::shared_ptr<const std::vector<std::byte>> encoded;
 };
 

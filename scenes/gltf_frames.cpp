@@ -22,7 +22,7 @@ glm::vec3 unit_or(const glm::dvec3& v, const glm::vec3& otherwise) {
 constexpr glm::vec3 kAnyNormal{0.0f, 0.0f, 1.0f};
 
 void normalize_normals(Mesh& mesh) {
-    std::vector<glm::dvec3> from_faces;   // made only when a normal is missing
+    std::vector<glm::dvec3> from_faces;  // made only when a normal is missing
     for (size_t i = 0; i < mesh.normals.size(); ++i) {
         const glm::dvec3 given(mesh.normals[i]);
         if (glm::dot(given, given) == 0.0 && from_faces.empty()) {

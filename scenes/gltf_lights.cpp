@@ -71,7 +71,8 @@ shading::Camera read_camera(const GltfDocument& document, int index, const glm::
     }
     const bool unlimited = perspective && camera.zfar == 0.0f;
     if (!unlimited && !(camera.zfar > camera.znear))
-        document.fail(what + " has its far plane at " + std::to_string(zfar) + " (allowed: beyond the near plane at " + std::to_string(znear) + ")");
+        document.fail(what + " has its far plane at " + std::to_string(zfar) + " (allowed: beyond the near plane at " +
+                      std::to_string(znear) + ")");
     return camera;
 }
 

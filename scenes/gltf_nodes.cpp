@@ -13,9 +13,7 @@ namespace {
 
 constexpr int kNone = -1;
 
-std::string name_of(size_t node) {
-    return "nodes[" + std::to_string(node) + "]";
-}
+std::string name_of(size_t node) { return "nodes[" + std::to_string(node) + "]"; }
 
 glm::dmat4 local_matrix(const GltfDocument& document, size_t index) {
     const tinygltf::Node& node = document.model.nodes[index];
@@ -28,7 +26,7 @@ glm::dmat4 local_matrix(const GltfDocument& document, size_t index) {
     glm::dmat4 matrix(1.0);
     if (!node.translation.empty()) matrix = glm::translate(matrix, glm::make_vec3(node.translation.data()));
     if (!node.rotation.empty()) {
-        const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);   // w first
+        const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);  // w first
         const double length = glm::length(rotation);
         if (!(length > 0.0)) document.fail(name_of(index) + ".rotation is zero (a unit quaternion was expected)");
         matrix *= glm::mat4_cast(rotation / length);
@@ -66,7 +64,8 @@ void check_finite(const GltfDocument& document, const glm::dmat4& matrix, size_t
     constexpr double kLargest = std::numeric_limits<float>::max();
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
-            if (!(std::abs(matrix[column][row]) <= kLargest)) document.fail(name_of(node) + " has a transform too large for single precision");
+            if (!(std::abs(matrix[column][row]) <= kLargest))
+                document.fail(name_of(node) + " has a transform too large for single precision");
 }
 
 std::vector<int> scene_roots(const GltfDocument& document, const std::vector<int>& roots) {

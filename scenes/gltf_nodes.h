@@ -10,8 +10,8 @@
 namespace rawtexel::scenes {
 
 struct GltfNodes {
-    std::vector<glm::dmat4> world;   ///< of every node, whether the scene shows it or not
-    std::vector<int> shown;          ///< nodes of the scene, parents before children, children in order
+    std::vector<glm::dmat4> world;  ///< of every node, whether the scene shows it or not
+    std::vector<int> shown;         ///< nodes of the scene, parents before children, children in order
 };
 
 /// Of the document's default scene, else its first; without scenes every root is shown. Any depth. Throws InputError for cycles, nodes with

@@ -4,6 +4,7 @@
 #include "scenes/spelling.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -49,7 +50,10 @@ std::vector<uint32_t> compact(std::vector<uint32_t>& triangles) {
 class PrimitiveReader {
   public:
     PrimitiveReader(const GltfDocument& document, const Accessors& accessors, const PrimitiveRequest& request, GltfNotices& notices)
-        : document_(document), accessors_(accessors), request_(request), notices_(notices),
+        : document_(document),
+          accessors_(accessors),
+          request_(request),
+          notices_(notices),
           source_(document.model.meshes[size_t(request.mesh)].primitives[size_t(request.primitive)]),
           name_("meshes[" + std::to_string(request.mesh) + "].primitives[" + std::to_string(request.primitive) + "]") {}
 
@@ -67,6 +71,7 @@ class PrimitiveReader {
         if (!request_.morph_weights.empty())
             apply_morph_targets(document_, accessors_, source_.targets, request_.morph_weights, used, name_, mesh);
         if (request_.pose) apply_skin(document_, accessors_, source_.attributes, *request_.pose, used, name_, mesh);
+        check_finite(mesh);
         complete_frames(mesh, request_.normal_map, *document_.memory);
         return mesh;
     }
@@ -105,7 +110,8 @@ class PrimitiveReader {
     }
 
     /// The floats of attribute `name` of the used vertices; empty when the primitive has none.
-    std::vector<float> floats(const std::string& name, std::vector<int> components, Integers integers, std::span<const uint32_t> used) const {
+    std::vector<float> floats(const std::string& name, std::vector<int> components, Integers integers,
+                              std::span<const uint32_t> used) const {
         const auto attribute = source_.attributes.find(name);
         if (attribute == source_.attributes.end()) return {};
         const std::string what = name_ + ".attributes." + name;
@@ -139,6 +145,13 @@ class PrimitiveReader {
         std::vector<glm::vec4> result;
         for (const glm::vec3& color : colors) result.emplace_back(color, 1.0f);
         return result;
+    }
+
+    /// Finite attributes may still overflow when they are deformed.
+    void check_finite(const shading::Mesh& mesh) const {
+        const auto finite = [](const glm::vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); };
+        if (!std::ranges::all_of(mesh.positions, finite))
+            document_.fail(name_ + " leaves the range of single precision when it is deformed");
     }
 
     void tell_of_unread_attributes() {

@@ -15,8 +15,8 @@ namespace rawtexel::scenes {
 struct PrimitiveRequest {
     int mesh = 0, primitive = 0;
     std::span<const float> morph_weights;
-    const SkinPose* pose = nullptr;                     ///< null: not skinned
-    const shading::TextureMap* normal_map = nullptr;    ///< null: no tangents are needed
+    const SkinPose* pose = nullptr;                   ///< null: not skinned
+    const shading::TextureMap* normal_map = nullptr;  ///< null: no tangents are needed
 };
 
 /// The mesh with the vertices that its triangles use, in the file's order; its material is the caller's to set. nullopt for points and

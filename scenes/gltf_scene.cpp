@@ -23,7 +23,10 @@ namespace {
 class SceneBuilder {
   public:
     SceneBuilder(const GltfDocument& document, const LoadOptions& options)
-        : document_(document), notices_(document.path, options), accessors_(document), textures_(document, options.texture, notices_),
+        : document_(document),
+          notices_(document.path, options),
+          accessors_(document),
+          textures_(document, options.texture, notices_),
           nodes_(flatten_nodes(document)) {}
 
     shading::Scene build() {

@@ -12,19 +12,19 @@ namespace {
 using nlohmann::json;
 
 enum class Kind {
-    Flag,      ///< true or false
-    Integer,   ///< within minimum..maximum, and one of `codes` if there are any
-    Index,     ///< into the document's array `refers_to`
+    Flag,     ///< true or false
+    Integer,  ///< within minimum..maximum, and one of `codes` if there are any
+    Index,    ///< into the document's array `refers_to`
     Number,
     Text,
-    Numbers,   ///< array of numbers, `length` of them if that is not 0
-    Indices,   ///< array of indices into `refers_to`
+    Numbers,  ///< array of numbers, `length` of them if that is not 0
+    Indices,  ///< array of indices into `refers_to`
     Texts,
-    Object,    ///< by the rules of `object`
-    Objects,   ///< array of such
-    IndexMap,  ///< object of indices into `refers_to`
-    IndexMaps, ///< array of such
-    Extras,    ///< an object by the rules of `object`, left out when it is anything else
+    Object,     ///< by the rules of `object`
+    Objects,    ///< array of such
+    IndexMap,   ///< object of indices into `refers_to`
+    IndexMaps,  ///< array of such
+    Extras,     ///< an object by the rules of `object`, left out when it is anything else
 };
 
 struct ObjectRules;
@@ -451,7 +451,8 @@ json checked_gltf(const json& document) {
     if (document.is_object() && asset != document.end() && asset->is_object()) {
         const auto version = asset->find("version");
         const bool text = version != asset->end() && version->is_string();
-        if (text && !version->get<std::string>().starts_with("2.")) throw SchemaError("glTF version " + shown(*version) + " (allowed: 2.x)");
+        if (text && !version->get<std::string>().starts_with("2."))
+            throw SchemaError("glTF version " + shown(*version) + " (allowed: 2.x)");
     }
     return Checker(document).object(document, kDocumentRules, root);
 }

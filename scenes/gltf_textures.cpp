@@ -15,7 +15,8 @@ using texunit::ContainerKind;
 /// Bytes of an image that the scene keeps, as the container readers see them.
 class EncodedBytes final : public texunit::ByteSource {
   public:
-    EncodedBytes(std::string name, std::shared_ptr<const std::vector<std::byte>> bytes) : name_(std::move(name)), bytes_(std::move(bytes)) {}
+    EncodedBytes(std::string name, std::shared_ptr<const std::vector<std::byte>> bytes)
+        : name_(std::move(name)), bytes_(std::move(bytes)) {}
     uint64_t size() const override { return bytes_->size(); }
     const std::string& name() const override { return name_; }
     void read(uint64_t offset, std::span<std::byte> out) const override {

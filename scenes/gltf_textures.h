@@ -32,7 +32,7 @@ class GltfTextures {
     texunit::TextureOptions options_;
     GltfNotices& notices_;
     std::vector<shading::SceneTexture> textures_;
-    std::map<std::pair<int, bool>, int> known_;   ///< (image, srgb) to index
+    std::map<std::pair<int, bool>, int> known_;  ///< (image, srgb) to index
 };
 
 }  // namespace rawtexel::scenes

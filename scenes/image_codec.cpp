@@ -24,13 +24,27 @@ struct Signature {
 };
 using namespace std::string_view_literals;
 constexpr std::array kSignatures = {
-    Signature{"png", "\x89PNG\r\n\x1a\n"sv}, Signature{"jpeg", "\xff\xd8\xff"sv},     Signature{"openexr", "\x76\x2f\x31\x01"sv},
-    Signature{"hdr", "#?RADIANCE"sv},        Signature{"hdr", "#?RGBE"sv},            Signature{"tiff", "II*\0"sv},
-    Signature{"tiff", "MM\0*"sv},            Signature{"tiff", "II+\0"sv},            Signature{"tiff", "MM\0+"sv},
-    Signature{"gif", "GIF8"sv},              Signature{"dpx", "SDPX"sv},              Signature{"dpx", "XPDS"sv},
-    Signature{"psd", "8BPS"sv},              Signature{"bmp", "BM"sv},                Signature{"pnm", "P1"sv},
-    Signature{"pnm", "P2"sv},                Signature{"pnm", "P3"sv},                Signature{"pnm", "P4"sv},
-    Signature{"pnm", "P5"sv},                Signature{"pnm", "P6"sv},                Signature{"pnm", "PF"sv},
+    Signature{"png", "\x89PNG\r\n\x1a\n"sv},
+    Signature{"jpeg", "\xff\xd8\xff"sv},
+    Signature{"openexr", "\x76\x2f\x31\x01"sv},
+    Signature{"hdr", "#?RADIANCE"sv},
+    Signature{"hdr", "#?RGBE"sv},
+    Signature{"tiff", "II*\0"sv},
+    Signature{"tiff", "MM\0*"sv},
+    Signature{"tiff", "II+\0"sv},
+    Signature{"tiff", "MM\0+"sv},
+    Signature{"gif", "GIF8"sv},
+    Signature{"dpx", "SDPX"sv},
+    Signature{"dpx", "XPDS"sv},
+    Signature{"psd", "8BPS"sv},
+    Signature{"bmp", "BM"sv},
+    Signature{"pnm", "P1"sv},
+    Signature{"pnm", "P2"sv},
+    Signature{"pnm", "P3"sv},
+    Signature{"pnm", "P4"sv},
+    Signature{"pnm", "P5"sv},
+    Signature{"pnm", "P6"sv},
+    Signature{"pnm", "PF"sv},
     Signature{"pnm", "Pf"sv},
 };
 
@@ -93,8 +107,8 @@ OIIO::TypeDesc type_desc(SampleType type) {
 void check_extents(const std::string& name, const OIIO::ImageSpec& spec) {
     const auto allowed = [](int extent) { return extent >= 1 && extent <= texunit::kMaxExtent; };
     if (!allowed(spec.width) || !allowed(spec.height))
-        throw InputError(name + ": image of " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels (allowed are 1 to " +
-                         std::to_string(texunit::kMaxExtent) + " along each side)");
+        throw InputError(name + ": image of " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+                         " pixels (allowed are 1 to " + std::to_string(texunit::kMaxExtent) + " along each side)");
     if (spec.depth > 1) throw InputError(name + ": a volume image (allowed are flat images)");
     if (spec.deep) throw InputError(name + ": a deep image (allowed are flat images)");
     if (spec.nchannels < 1) throw InputError(name + ": an image without channels (at least 1 is needed)");
@@ -102,14 +116,12 @@ void check_extents(const std::string& name, const OIIO::ImageSpec& spec) {
 
 void check_compression(const std::string& name, const ImageHeader& header, uint64_t encoded_bytes) {
     if (header.bytes() / kMaxCompression > encoded_bytes)
-        throw InputError(name + ": truncated image (" + std::to_string(encoded_bytes) + " bytes cannot hold " + std::to_string(header.width) +
-                         " x " + std::to_string(header.height) + " pixels)");
+        throw InputError(name + ": truncated image (" + std::to_string(encoded_bytes) + " bytes cannot hold " +
+                         std::to_string(header.width) + " x " + std::to_string(header.height) + " pixels)");
 }
 
 /// A JPEG that ends with a few stray bytes is whole; every other complaint of the decoder means lost pixels.
-bool is_harmless(const std::string& message) {
-    return message.find("extraneous bytes before marker 0xd9") != message.npos;
-}
+bool is_harmless(const std::string& message) { return message.find("extraneous bytes before marker 0xd9") != message.npos; }
 
 }  // namespace
 
@@ -138,7 +150,7 @@ ImageHeader read_image_header(const std::string& name, Bytes encoded) try {
     const CheckedPng png(name, format, encoded, PngExtent::Header);
     Reader reader(format, png.bytes());
     if (!reader.input || !reader.open(name)) not_readable(name, format, reader.message());
-    reader.message();   // warnings about the header
+    reader.message();  // warnings about the header
     check_extents(name, reader.spec);
     const ImageHeader header{reader.spec.width, reader.spec.height, reader.spec.nchannels, sample_type(reader.spec.format),
                              reader.spec.alpha_channel};
@@ -166,7 +178,7 @@ namespace {
 OIIO::ImageOutput::unique_ptr create_output(const std::string& path) {
     if (extension_of(path).empty()) return nullptr;
     auto output = OIIO::ImageOutput::create(path);
-    OIIO::geterror();   // asking is no error
+    OIIO::geterror();  // asking is no error
     return output && output->supports("ioproxy") ? std::move(output) : nullptr;
 }
 
@@ -181,7 +193,7 @@ OIIO::ImageSpec output_spec(const PixelData& data, const Metadata& metadata) {
     spec.alpha_channel = -1;
     for (size_t c = 0; c < data.channel_names.size(); ++c)
         if (data.channel_names[c] == "A") spec.alpha_channel = int(c);
-    spec["oiio:UnassociatedAlpha"] = 1;   // codes are written as they come
+    spec["oiio:UnassociatedAlpha"] = 1;  // codes are written as they come
     for (const auto& [key, value] : metadata) spec.attribute(key, value);
     return spec;
 }

@@ -18,7 +18,7 @@ constexpr size_t bytes_per_sample(SampleType type) { return type == SampleType::
 struct ImageHeader {
     int width = 0, height = 0, channels = 0;
     SampleType type = SampleType::Unorm8;
-    int alpha_channel = -1;   ///< -1: none
+    int alpha_channel = -1;  ///< -1: none
     uint64_t bytes() const { return uint64_t(width) * uint64_t(height) * uint64_t(channels) * bytes_per_sample(type); }
 };
 
@@ -37,12 +37,13 @@ ImageHeader read_image_header(const std::string& name, Bytes encoded);
 
 /// Reads channels [0, channels) as samples of `header.type` to `pixels`, `pixel_stride` bytes apart, rows from top to bottom without
 /// padding. Alpha stays unassociated. Throws TextureError when the data is damaged.
-void read_image_pixels(const std::string& name, Bytes encoded, const ImageHeader& header, int channels, std::byte* pixels, size_t pixel_stride);
+void read_image_pixels(const std::string& name, Bytes encoded, const ImageHeader& header, int channels, std::byte* pixels,
+                       size_t pixel_stride);
 
 /// Pixels to encode, rows from top to bottom, channels interleaved.
 struct PixelData {
     int width, height;
-    std::vector<std::string> channel_names;   ///< one per channel
+    std::vector<std::string> channel_names;  ///< one per channel
     SampleType type;
     const std::byte* pixels;
 };

@@ -145,8 +145,6 @@ bool is_float_format(const std::string& path) {
     return std::ranges::find(kFloatExtensions, extension_of(path)) != kFloatExtensions.end();
 }
 
-bool is_writable_format(const std::string& path) {
-    return can_encode(path);
-}
+bool is_writable_format(const std::string& path) { return can_encode(path); }
 
 }  // namespace rawtexel::scenes

@@ -31,7 +31,8 @@ std::vector<std::byte> read_file(const std::string& path);
 std::unique_ptr<texunit::TexelSource> open_image(const std::string& path, bool srgb);
 std::unique_ptr<texunit::TexelSource> open_image_memory(std::string name, std::shared_ptr<const std::vector<std::byte>> encoded, bool srgb);
 
-/// The whole image as linear floats with its own channels. 8-bit and 16-bit integer images are decoded by the sRGB curve when `srgb_integers`.
+/// The whole image as linear floats with its own channels. 8-bit and 16-bit integer images are decoded by the sRGB curve when
+/// `srgb_integers`.
 shading::Image read_image(const std::string& path, bool srgb_integers);
 
 using Metadata = std::vector<std::pair<std::string, std::string>>;

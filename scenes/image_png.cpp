@@ -41,7 +41,7 @@ uint32_t checksum(Bytes bytes) {
 /// What libpng would refuse, and print, on reading IHDR (PNG specification, 11.2.2).
 void check_header(const std::string& name, Bytes data) {
     constexpr size_t kHeaderBytes = 13;
-    constexpr uint32_t kLibpngLimit = 1000000;   // of each extent
+    constexpr uint32_t kLibpngLimit = 1000000;  // of each extent
     if (data.size() != kHeaderBytes) damaged(name, "a header of " + std::to_string(data.size()) + " bytes (13 were expected)");
     const uint32_t width = big_endian_32(data), height = big_endian_32(data.subspan(4));
     const auto allowed = [](uint32_t extent) { return extent >= 1 && extent <= kLibpngLimit; };
@@ -52,8 +52,7 @@ void check_header(const std::string& name, Bytes data) {
     const bool deep = bits == 8 || bits == 16, shallow = bits == 1 || bits == 2 || bits == 4;
     const bool grey = colour_type == 0 && (deep || shallow), palette = colour_type == 3 && (shallow || bits == 8);
     const bool colour = (colour_type == 2 || colour_type == 4 || colour_type == 6) && deep;
-    if (!grey && !palette && !colour)
-        damaged(name, "colour type " + std::to_string(colour_type) + " of " + std::to_string(bits) + " bits");
+    if (!grey && !palette && !colour) damaged(name, "colour type " + std::to_string(colour_type) + " of " + std::to_string(bits) + " bits");
     if (int(data[10]) != 0 || int(data[11]) != 0 || int(data[12]) > 1) damaged(name, "an unknown compression, filter or interlace method");
 }
 

@@ -86,7 +86,9 @@ std::vector<std::byte> linear_floats(std::span<const std::byte> pixels) {
 class ImageSource final : public texunit::TexelSource {
   public:
     ImageSource(std::string name, std::shared_ptr<const std::vector<std::byte>> encoded, bool srgb)
-        : name_(std::move(name)), encoded_(std::move(encoded)), header_(read_image_header(name_, *encoded_)),
+        : name_(std::move(name)),
+          encoded_(std::move(encoded)),
+          header_(read_image_header(name_, *encoded_)),
           format_(texel_format(header_.type, srgb)) {}
 
     Format format() const override { return format_; }
@@ -130,7 +132,8 @@ class ImageSource final : public texunit::TexelSource {
 
 }  // namespace
 
-std::unique_ptr<texunit::TexelSource> open_image_memory(std::string name, std::shared_ptr<const std::vector<std::byte>> encoded, bool srgb) {
+std::unique_ptr<texunit::TexelSource> open_image_memory(std::string name, std::shared_ptr<const std::vector<std::byte>> encoded,
+                                                        bool srgb) {
     return std::make_unique<ImageSource>(std::move(name), std::move(encoded), srgb);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cfloat>
 #include <cmath>
 #include <numeric>
@@ -15,23 +16,19 @@ constexpr int kNone = -1;
 bool is_nonzero(float x) { return std::fabs(x) > FLT_MIN; }
 bool is_nonzero(const glm::vec3& v) { return is_nonzero(v.x) || is_nonzero(v.y) || is_nonzero(v.z); }
 
-glm::vec3 normalized(const glm::vec3& v) {
-    return is_nonzero(v) ? v * (1.0f / std::sqrt(glm::dot(v, v))) : v;
-}
+glm::vec3 normalized(const glm::vec3& v) { return is_nonzero(v) ? v * (1.0f / std::sqrt(glm::dot(v, v))) : v; }
 
 /// The direction of `v` in the plane of the unit vector `normal`.
-glm::vec3 projected(const glm::vec3& normal, const glm::vec3& v) {
-    return normalized(v - normal * glm::dot(normal, v));
-}
+glm::vec3 projected(const glm::vec3& normal, const glm::vec3& v) { return normalized(v - normal * glm::dot(normal, v)); }
 
 struct Triangle {
-    std::array<int, 3> vertex{};                      ///< welded
-    std::array<int, 3> neighbour{kNone, kNone, kNone};   ///< across the edge from corner k to k + 1
+    std::array<int, 3> vertex{};                        ///< welded
+    std::array<int, 3> neighbour{kNone, kNone, kNone};  ///< across the edge from corner k to k + 1
     std::array<int, 3> group{kNone, kNone, kNone};
-    glm::vec3 tangent{0.0f};                          ///< unit, along increasing u
+    glm::vec3 tangent{0.0f};  ///< unit, along increasing u
     bool keeps_orientation = false;
-    bool joins_any = true;                            ///< no area in the texture: takes the orientation of its first group
-    bool degenerate = false;                          ///< two corners in one place
+    bool joins_any = true;    ///< no area in the texture: takes the orientation of its first group
+    bool degenerate = false;  ///< two corners in one place
 };
 
 /// Triangles around a vertex that share a tangent.
@@ -69,12 +66,13 @@ class TangentSpace {
         return int(std::ranges::find(triangle.vertex, vertex) - triangle.vertex.begin());
     }
 
-    /// Vertices that agree in everything become one: the first of them.
+    /// Vertices that agree in everything become one: the first of them. Compared by their bits, which order even numbers that are none.
     void weld() {
+        const auto bits = [](float x) { return std::bit_cast<uint32_t>(x + 0.0f); };  // -0 is 0
         const auto key = [&](int v) {
             const glm::vec3 p = position(v), n = normal(v);
             const glm::vec2 t = uv(v);
-            return std::array{p.x, p.y, p.z, n.x, n.y, n.z, t.x, t.y};
+            return std::array{bits(p.x), bits(p.y), bits(p.z), bits(n.x), bits(n.y), bits(n.z), bits(t.x), bits(t.y)};
         };
         std::vector<int> order(geometry_.positions.size()), representative(order.size());
         std::iota(order.begin(), order.end(), 0);
@@ -86,8 +84,7 @@ class TangentSpace {
             const bool same = i > 0 && key(order[i]) == key(order[i - 1]);
             representative[size_t(order[i])] = same ? representative[size_t(order[i - 1])] : order[i];
         }
-        for (size_t i = 0; i < geometry_.indices.size(); ++i)
-            triangles_[i / 3].vertex[i % 3] = representative[geometry_.indices[i]];
+        for (size_t i = 0; i < geometry_.indices.size(); ++i) triangles_[i / 3].vertex[i % 3] = representative[geometry_.indices[i]];
     }
 
     /// Tangent and orientation of one triangle: equations 18 and 19 of the thesis.
@@ -97,7 +94,7 @@ class TangentSpace {
         const glm::vec2 t21 = uv(b) - uv(a), t31 = uv(c) - uv(a);
         triangle.degenerate = position(a) == position(b) || position(a) == position(c) || position(b) == position(c);
 
-        const float signed_area = t21.x * t31.y - t21.y * t31.x;   // twice, in the texture
+        const float signed_area = t21.x * t31.y - t21.y * t31.x;  // twice, in the texture
         triangle.keeps_orientation = signed_area > 0.0f;
         if (!is_nonzero(signed_area)) return;
         const glm::vec3 along_u = t31.y * d1 - t21.y * d2, along_v = -t31.x * d1 + t21.x * d2;
@@ -109,7 +106,7 @@ class TangentSpace {
 
     struct Edge {
         int low, high, triangle, corner;
-        bool ascending;   ///< runs from low to high
+        bool ascending;  ///< runs from low to high
     };
 
     /// Pairs edges that run in opposite directions between the same two vertices; where more than two meet, in the order of triangles.
@@ -125,7 +122,7 @@ class TangentSpace {
             }
         }
         std::ranges::sort(edges, {}, [](const Edge& e) { return std::array{e.low, e.high, e.triangle, e.corner}; });
-        std::vector<Edge> waiting;   // of one direction: a pair leaves as soon as it meets
+        std::vector<Edge> waiting;  // of one direction: a pair leaves as soon as it meets
         size_t first_waiting = 0;
         for (const Edge& edge : edges) {
             const bool same_place = first_waiting < waiting.size() && waiting.back().low == edge.low && waiting.back().high == edge.high;
@@ -215,8 +212,6 @@ class TangentSpace {
 
 }  // namespace
 
-std::vector<glm::vec4> mikktspace_tangents(const TangentGeometry& geometry) {
-    return TangentSpace(geometry).corner_tangents();
-}
+std::vector<glm::vec4> mikktspace_tangents(const TangentGeometry& geometry) { return TangentSpace(geometry).corner_tangents(); }
 
 }  // namespace rawtexel::scenes

@@ -13,7 +13,8 @@ namespace {
 
 using shading::Mesh;
 
-/// False where no triangle said anything, and where the triangles' tangents stood on the vertex's plane: what projection left of them is noise.
+/// False where no triangle said anything, and where the triangles' tangents stood on the vertex's plane: what projection left of them is
+/// noise.
 bool is_usable(const glm::vec3& tangent, const glm::vec3& normal) {
     return std::abs(glm::dot(tangent, tangent) - 1.0f) < 1e-3f && std::abs(glm::dot(tangent, normal)) < 1e-2f;
 }
@@ -21,7 +22,7 @@ bool is_usable(const glm::vec3& tangent, const glm::vec3& normal) {
 uint32_t copy_vertex(Mesh& mesh, uint32_t vertex) {
     const auto append = [vertex](auto& attribute) {
         if (attribute.empty()) return;
-        const auto value = attribute[vertex];   // not a reference into what may move
+        const auto value = attribute[vertex];  // not a reference into what may move
         attribute.push_back(value);
     };
     append(mesh.positions);

@@ -119,7 +119,8 @@ TEST_F(AccessorTest, SparseElementsReplaceThoseOfTheBase) {
         GltfFixture fixture = fixture_;
         const int accessor = with_base ? fixture.add_vec2({1, 2, 3, 4, 5, 6})
                                        : fixture.add("accessors", {{"componentType", 5126}, {"type", "VEC2"}, {"count", 3}});
-        const int indices = fixture.add_view(bytes_of(std::vector<uint8_t>{1, 2})), values = fixture.add_view(bytes_of(std::vector<float>{7, 8, 9, 10}));
+        const int indices = fixture.add_view(bytes_of(std::vector<uint8_t>{1, 2})),
+                  values = fixture.add_view(bytes_of(std::vector<float>{7, 8, 9, 10}));
         fixture.json["accessors"][accessor]["sparse"] = {
             {"count", 2}, {"indices", {{"bufferView", indices}, {"componentType", 5121}}}, {"values", {{"bufferView", values}}}};
         fixture.show({{"attributes", {{"POSITION", positions_}, {"TEXCOORD_0", accessor}}}});
@@ -132,7 +133,8 @@ TEST_F(AccessorTest, SparseElementsReplaceThoseOfTheBase) {
 
 TEST_F(AccessorTest, SparsePartsAreCheckedLikeTheRest) {
     const int accessor = fixture_.add_vec2({1, 2, 3, 4, 5, 6});
-    const int indices = fixture_.add_view(bytes_of(std::vector<uint16_t>{1, 2})), values = fixture_.add_view(bytes_of(std::vector<float>{7, 8, 9, 10}));
+    const int indices = fixture_.add_view(bytes_of(std::vector<uint16_t>{1, 2})),
+              values = fixture_.add_view(bytes_of(std::vector<float>{7, 8, 9, 10}));
     auto& sparse = fixture_.json["accessors"][accessor]["sparse"];
     sparse = {{"count", 2}, {"indices", {{"bufferView", indices}, {"componentType", 5123}}}, {"values", {{"bufferView", values}}}};
     show_with("TEXCOORD_0", accessor);

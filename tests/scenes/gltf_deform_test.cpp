@@ -24,7 +24,7 @@ TEST_F(GltfDeformTest, TargetsAreAddedByTheirDefaultWeightsAndSaidOnce) {
     primitive["targets"] = {{{"POSITION", fixture_.add_vec3({1, 0, 0, 1, 0, 0, 1, 0, 0})}},
                             {{"POSITION", fixture_.add_vec3({0, 0, 4, 0, 0, 8, 0, 0, 0})}}};
     fixture_.show(primitive);
-    EXPECT_EQ(scene().meshes.at(0).positions[1], glm::vec3(1, 0, 0));   // no weights: 0
+    EXPECT_EQ(scene().meshes.at(0).positions[1], glm::vec3(1, 0, 0));  // no weights: 0
     fixture_.json["meshes"][0]["weights"] = {2, 0.25};
     EXPECT_EQ(scene().meshes.at(0).positions, (std::vector<glm::vec3>{{2, 0, 1}, {3, 0, 2}, {2, 1, 0}}));
     fixture_.json["nodes"][0]["weights"] = {0, 0.5};
@@ -66,6 +66,14 @@ TEST_F(GltfDeformTest, ShortTargetsAreRefused) {
     EXPECT_TRUE(says(error(), "targets[0].POSITION has 1 elements"));
 }
 
+TEST_F(GltfDeformTest, DeformationsThatOverflowAreRefused) {
+    nlohmann::json primitive = triangle();
+    primitive["targets"] = {{{"POSITION", fixture_.add_vec3({1e38f, 0, 0, 0, 0, 0, 0, 0, 0})}}};
+    fixture_.show(primitive);
+    fixture_.json["meshes"][0]["weights"] = {1000};
+    EXPECT_TRUE(says(error(), "leaves the range of single precision"));
+}
+
 /// A triangle on a skin of two joints.
 class SkinTest : public GltfDeformTest {
   protected:
@@ -74,11 +82,11 @@ class SkinTest : public GltfDeformTest {
         primitive["attributes"]["NORMAL"] = fixture_.add_vec3({0, 0, 1, 0, 0, 1, 0, 0, 1});
         primitive["attributes"]["JOINTS_0"] = fixture_.add_values<uint8_t>("VEC4", 4, {0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0});
         primitive["attributes"]["WEIGHTS_0"] = fixture_.add_vec4({1, 0, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0});
-        fixture_.show(primitive);   // node 0
+        fixture_.show(primitive);  // node 0
         fixture_.json["nodes"][0]["skin"] = 0;
-        fixture_.json["nodes"][0]["translation"] = {100, 100, 100};   // plays no part
-        fixture_.add_node({{"translation", {0, 0, 2}}});              // joint 0
-        fixture_.add_node({{"translation", {10, 0, 0}}});             // joint 1
+        fixture_.json["nodes"][0]["translation"] = {100, 100, 100};  // plays no part
+        fixture_.add_node({{"translation", {0, 0, 2}}});             // joint 0
+        fixture_.add_node({{"translation", {10, 0, 0}}});            // joint 1
         fixture_.add("skins", {{"joints", {1, 2}}});
     }
 };
@@ -93,14 +101,14 @@ TEST_F(SkinTest, VerticesFollowTheirJointsAndNotTheirNode) {
 
 TEST_F(SkinTest, InverseBindMatricesComeFirst) {
     // Joint 0 was bound where it stands now, joint 1 at (4, 0, 0).
-    fixture_.json["skins"][0]["inverseBindMatrices"] =
-        fixture_.add_values<float>("MAT4", 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -2, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -4, 0, 0, 1});
+    fixture_.json["skins"][0]["inverseBindMatrices"] = fixture_.add_values<float>(
+        "MAT4", 16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -2, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -4, 0, 0, 1});
     EXPECT_EQ(scene().meshes.at(0).positions, (std::vector<glm::vec3>{{0, 0, 0}, {7, 0, 0}, {3, 1, 0}}));
 }
 
 TEST_F(SkinTest, NormalsTurnWithTheJoints) {
     const float half = std::sqrt(0.5f);
-    fixture_.json["nodes"][1]["rotation"] = {half, 0, 0, half};   // 90 degrees about X: Z goes to -Y
+    fixture_.json["nodes"][1]["rotation"] = {half, 0, 0, half};  // 90 degrees about X: Z goes to -Y
     fixture_.json["nodes"][1]["scale"] = {1, 1, 5};
     const auto normals = scene().meshes.at(0).normals;
     EXPECT_NEAR(glm::distance(normals[0], glm::vec3(0, -1, 0)), 0.0f, 1e-6f);

@@ -57,7 +57,7 @@ TEST_F(GltfDocumentTest, GlbHeadersAreChecked) {
     EXPECT_TRUE(says(with(15, 0x7f), "truncated GLB (a chunk of"));
     EXPECT_TRUE(says(with(16, 'X'), "GLB without JSON"));
     EXPECT_TRUE(says(glb_error(std::span(file).first(10)), "truncated GLB (10 bytes"));
-    file.resize(file.size() + 16);   // what follows the declared length is no part of it
+    file.resize(file.size() + 16);  // what follows the declared length is no part of it
     EXPECT_EQ(glb_error(file), "");
 }
 
@@ -71,7 +71,7 @@ TEST_F(GltfDocumentTest, JsonThatIsNotGltfIsRefused) {
     EXPECT_TRUE(says(text_error("{\"asset\": {\"version\": \"2.0\"}, \"meshes\": {}}"), "meshes is an object (allowed: an array)"));
     EXPECT_TRUE(says(text_error("{\"asset\": {\"version\": \"2.0\"}, \"nodes\": [7]}"), "nodes[0] is 7 (allowed: an object)"));
     EXPECT_EQ(text_error("{\"asset\": {\"version\": \"2.0\"}}"), "");
-    EXPECT_EQ(text_error("\xef\xbb\xbf{\"asset\": {\"version\": \"2.1\"}}"), "");   // a byte order mark
+    EXPECT_EQ(text_error("\xef\xbb\xbf{\"asset\": {\"version\": \"2.1\"}}"), "");  // a byte order mark
 }
 
 TEST_F(GltfDocumentTest, DeepJsonIsRefusedWithoutRecursion) {
@@ -81,7 +81,9 @@ TEST_F(GltfDocumentTest, DeepJsonIsRefusedWithoutRecursion) {
         EXPECT_TRUE(says(text_error(text), "nested deeper than"));
     }
     // Brackets in strings are no nesting.
-    EXPECT_EQ(text_error("{\"asset\": {\"version\": \"2.0\"}, \"extras\": \"" + std::string(1000, '[') + "\\\"" + std::string(1000, '{') + "\"}"), "");
+    EXPECT_EQ(
+        text_error("{\"asset\": {\"version\": \"2.0\"}, \"extras\": \"" + std::string(1000, '[') + "\\\"" + std::string(1000, '{') + "\"}"),
+        "");
 }
 
 TEST_F(GltfDocumentTest, UnknownPropertiesAndExtrasOfAnyTypePlayNoPart) {

@@ -45,12 +45,30 @@ std::vector<std::byte> bytes_of(std::string_view text);
 /// glTF component type codes of C++ types.
 template <class T>
 constexpr int component_type();
-template <> constexpr int component_type<int8_t>() { return 5120; }
-template <> constexpr int component_type<uint8_t>() { return 5121; }
-template <> constexpr int component_type<int16_t>() { return 5122; }
-template <> constexpr int component_type<uint16_t>() { return 5123; }
-template <> constexpr int component_type<uint32_t>() { return 5125; }
-template <> constexpr int component_type<float>() { return 5126; }
+template <>
+constexpr int component_type<int8_t>() {
+    return 5120;
+}
+template <>
+constexpr int component_type<uint8_t>() {
+    return 5121;
+}
+template <>
+constexpr int component_type<int16_t>() {
+    return 5122;
+}
+template <>
+constexpr int component_type<uint16_t>() {
+    return 5123;
+}
+template <>
+constexpr int component_type<uint32_t>() {
+    return 5125;
+}
+template <>
+constexpr int component_type<float>() {
+    return 5126;
+}
 
 /// A document under construction. The JSON is open to any damage a test wants.
 struct GltfFixture {
@@ -77,7 +95,7 @@ struct GltfFixture {
 
     /// A mesh of one primitive on a node of the scene; returns the mesh.
     int show(nlohmann::json primitive);
-    int add_node(nlohmann::json node);   ///< a root of the scene
+    int add_node(nlohmann::json node);  ///< a root of the scene
 
     /// As a binary file. `buffers` is completed by the binary part unless the test has set it.
     std::vector<std::byte> glb() const;

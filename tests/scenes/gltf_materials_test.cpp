@@ -52,21 +52,23 @@ TEST_F(GltfMaterialsTest, APrimitiveWithoutMaterialGetsTheDefaultOne) {
 
 TEST_F(GltfMaterialsTest, EveryFactorAndMapIsRead) {
     for (int i = 0; i < 5; ++i) add_texture();
-    fixture_.add("materials", {{"name", "all"},
-                               {"pbrMetallicRoughness",
-                                {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
-                                 {"metallicFactor", 0.5},
-                                 {"roughnessFactor", 0.25},
-                                 {"baseColorTexture", {{"index", 0}}},
-                                 {"metallicRoughnessTexture", {{"index", 1}, {"texCoord", 1}}}}},
-                               {"normalTexture", {{"index", 2}, {"scale", -0.75}}},
-                               {"occlusionTexture", {{"index", 3}, {"strength", 0.5}}},
-                               {"emissiveTexture", {{"index", 4}}},
-                               {"emissiveFactor", {1, 0.5, 0}},
-                               {"alphaMode", "MASK"},
-                               {"alphaCutoff", 0.125},
-                               {"doubleSided", true},
-                               {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}, {"KHR_materials_unlit", nlohmann::json::object()}}}});
+    fixture_.add("materials",
+                 {{"name", "all"},
+                  {"pbrMetallicRoughness",
+                   {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
+                    {"metallicFactor", 0.5},
+                    {"roughnessFactor", 0.25},
+                    {"baseColorTexture", {{"index", 0}}},
+                    {"metallicRoughnessTexture", {{"index", 1}, {"texCoord", 1}}}}},
+                  {"normalTexture", {{"index", 2}, {"scale", -0.75}}},
+                  {"occlusionTexture", {{"index", 3}, {"strength", 0.5}}},
+                  {"emissiveTexture", {{"index", 4}}},
+                  {"emissiveFactor", {1, 0.5, 0}},
+                  {"alphaMode", "MASK"},
+                  {"alphaCutoff", 0.125},
+                  {"doubleSided", true},
+                  {"extensions",
+                   {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}}, {"KHR_materials_unlit", nlohmann::json::object()}}}});
     const shading::Scene loaded = scene();
     const Material& m = loaded.materials.at(0);
     EXPECT_EQ(m.name, "all");
@@ -85,7 +87,8 @@ TEST_F(GltfMaterialsTest, EveryFactorAndMapIsRead) {
         ASSERT_GE(texture, 0) << slot;
         const bool colour = slot == shading::kBaseColor || slot == shading::kEmissive;
         EXPECT_EQ(loaded.textures[size_t(texture)].srgb, colour) << slot;
-        EXPECT_EQ(loaded.textures[size_t(texture)].texture->format(), colour ? texunit::Format::RGBA8Srgb : texunit::Format::RGBA8Unorm) << slot;
+        EXPECT_EQ(loaded.textures[size_t(texture)].texture->format(), colour ? texunit::Format::RGBA8Srgb : texunit::Format::RGBA8Unorm)
+            << slot;
         EXPECT_EQ(m.maps[slot].uv_set, slot == shading::kMetallicRoughness ? 1 : 0) << slot;
     }
 }
@@ -93,9 +96,10 @@ TEST_F(GltfMaterialsTest, EveryFactorAndMapIsRead) {
 TEST_F(GltfMaterialsTest, AnImageIsSharedPerUseAsColourOrData) {
     add_texture();
     fixture_.add("textures", {{"source", 0}});
-    fixture_.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 0}}}}},
-                               {"occlusionTexture", {{"index", 1}}},
-                               {"emissiveTexture", {{"index", 1}}}});
+    fixture_.add("materials",
+                 {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 0}}}}},
+                  {"occlusionTexture", {{"index", 1}}},
+                  {"emissiveTexture", {{"index", 1}}}});
     const shading::Scene loaded = scene();
     const auto& maps = loaded.materials.at(0).maps;
     ASSERT_EQ(loaded.textures.size(), 2u);
@@ -110,11 +114,12 @@ TEST_F(GltfMaterialsTest, AnImageIsSharedPerUseAsColourOrData) {
 TEST_F(GltfMaterialsTest, TextureTransformsScaleThenRotateThenMove) {
     add_texture();
     const double angle = 0.3;
-    fixture_.add("materials", {{"normalTexture",
-                                {{"index", 0},
-                                 {"texCoord", 0},
-                                 {"extensions",
-                                  {{"KHR_texture_transform", {{"offset", {0.5, -2}}, {"rotation", angle}, {"scale", {2, 3}}, {"texCoord", 1}}}}}}}});
+    fixture_.add("materials",
+                 {{"normalTexture",
+                   {{"index", 0},
+                    {"texCoord", 0},
+                    {"extensions",
+                     {{"KHR_texture_transform", {{"offset", {0.5, -2}}, {"rotation", angle}, {"scale", {2, 3}}, {"texCoord", 1}}}}}}}});
     const shading::TextureMap map = scene().materials.at(0).maps[shading::kNormal];
     EXPECT_EQ(map.uv_set, 1);
     for (const glm::vec2 uv : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1), glm::vec2(0.25f, 0.75f)}) {
@@ -130,10 +135,11 @@ TEST_F(GltfMaterialsTest, TextureTransformsScaleThenRotateThenMove) {
 
 TEST_F(GltfMaterialsTest, TheSpecificationsExampleShowsTheLowerLeftQuarter) {
     add_texture();
-    fixture_.add("materials", {{"normalTexture",
-                                {{"index", 0},
-                                 {"extensions",
-                                  {{"KHR_texture_transform", {{"offset", {0, 1}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}}}}}}}});
+    fixture_.add(
+        "materials",
+        {{"normalTexture",
+          {{"index", 0},
+           {"extensions", {{"KHR_texture_transform", {{"offset", {0, 1}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}}}}}}}});
     const glm::mat3x2 uv_from_vertex = scene().materials.at(0).maps[shading::kNormal].uv_from_vertex;
     for (const glm::vec2 uv : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1), glm::vec2(1, 1)}) {
         const glm::vec2 found = uv_from_vertex * glm::vec3(uv, 1.0f);
@@ -187,7 +193,7 @@ TEST_F(GltfMaterialsTest, IndicesOutsideTheirArraysAreRefused) {
     EXPECT_TRUE(says(error(), "normalTexture.index is -1"));
     material()["normalTexture"]["index"] = 0.5;
     EXPECT_TRUE(says(error(), "normalTexture.index is 0.5"));
-    material()["normalTexture"]["index"] = 0.0;   // the same number as 0
+    material()["normalTexture"]["index"] = 0.0;  // the same number as 0
     EXPECT_EQ(error(), "");
     fixture_.json["textures"][0]["source"] = 3;
     EXPECT_TRUE(says(error(), "textures[0].source is 3"));

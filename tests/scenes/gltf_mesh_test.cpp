@@ -18,7 +18,8 @@ class GltfMeshTest : public testing::Test {
     static std::vector<std::array<float, 3>> triangles(const shading::Mesh& mesh) {
         std::vector<std::array<float, 3>> result;
         for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-            result.push_back({mesh.positions[mesh.indices[i]].x, mesh.positions[mesh.indices[i + 1]].x, mesh.positions[mesh.indices[i + 2]].x});
+            result.push_back(
+                {mesh.positions[mesh.indices[i]].x, mesh.positions[mesh.indices[i + 1]].x, mesh.positions[mesh.indices[i + 2]].x});
         return result;
     }
 
@@ -40,9 +41,9 @@ TEST_F(GltfMeshTest, EveryTriangleModeMakesItsTriangles) {
     const int positions = parabola(6);
     fixture_.show({{"attributes", {{"POSITION", positions}}}});
     EXPECT_EQ(triangles(mesh()), (Triangles{{0, 1, 2}, {3, 4, 5}}));
-    primitive()["mode"] = 5;   // p_i = v_i, v_{i+1+i%2}, v_{i+2-i%2}
+    primitive()["mode"] = 5;  // p_i = v_i, v_{i+1+i%2}, v_{i+2-i%2}
     EXPECT_EQ(triangles(mesh()), (Triangles{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}, {3, 5, 4}}));
-    primitive()["mode"] = 6;   // p_i = v_{i+1}, v_{i+2}, v_0
+    primitive()["mode"] = 6;  // p_i = v_{i+1}, v_{i+2}, v_0
     EXPECT_EQ(triangles(mesh()), (Triangles{{1, 2, 0}, {2, 3, 0}, {3, 4, 0}, {4, 5, 0}}));
 }
 
@@ -79,7 +80,8 @@ TEST_F(GltfMeshTest, OnlyVerticesInUseRemainInTheirOrder) {
     for (const int count : {8, 5000}) {
         GltfFixture fresh;
         std::swap(fixture_, fresh);
-        fixture_.show({{"attributes", {{"POSITION", parabola(count)}}}, {"indices", fixture_.add_indices<uint16_t>({uint16_t(count - 1), 2, 5})}});
+        fixture_.show(
+            {{"attributes", {{"POSITION", parabola(count)}}}, {"indices", fixture_.add_indices<uint16_t>({uint16_t(count - 1), 2, 5})}});
         const shading::Mesh loaded = mesh();
         ASSERT_EQ(loaded.positions.size(), 3u);
         EXPECT_EQ(loaded.positions[0].x, 2.0f);
@@ -200,7 +202,8 @@ TEST_F(NormalMappedTest, WithoutCoordinatesTangentsArePerpendicularToTheNormals)
     show(primitive);
     const shading::Mesh loaded = mesh();
     ASSERT_TRUE(loaded.tangents.empty() || loaded.tangents.size() == loaded.positions.size());
-    for (size_t i = 0; i < loaded.tangents.size(); ++i) EXPECT_NEAR(glm::dot(glm::vec3(loaded.tangents[i]), loaded.normals[i]), 0.0f, 1e-6f);
+    for (size_t i = 0; i < loaded.tangents.size(); ++i)
+        EXPECT_NEAR(glm::dot(glm::vec3(loaded.tangents[i]), loaded.normals[i]), 0.0f, 1e-6f);
 }
 
 TEST_F(GltfMeshTest, ManyPrimitivesOnTheSameBytesAreRefusedBeforeMemoryRunsOut) {

@@ -134,7 +134,9 @@ TEST_F(GltfNodesTest, LightsTakePlaceAndDirectionFromTheirNodes) {
               {{"type", "spot"}, {"name", "lamp"}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.4}}}}};
     const float half = std::sqrt(0.5f);
     for (const int i : {0, 1, 2})
-        fixture_.add_node({{"translation", {i, 2, 3}}, {"rotation", {half, 0, 0, half}}, {"scale", {2, 2, 2}},
+        fixture_.add_node({{"translation", {i, 2, 3}},
+                           {"rotation", {half, 0, 0, half}},
+                           {"scale", {2, 2, 2}},
                            {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
     const shading::Scene loaded = scene();
     ASSERT_EQ(loaded.lights.size(), 3u);
@@ -189,7 +191,8 @@ TEST_F(GltfNodesTest, ImpossibleCamerasAreRefused) {
     EXPECT_TRUE(says(refused({{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 2}, {"zfar", 1}}}}), "far plane"));
     EXPECT_NE(refused({{"type", "perspective"}}), "");
     EXPECT_NE(refused({{"type", "fisheye"}}), "");
-    EXPECT_TRUE(says(refused({{"type", "orthographic"}, {"orthographic", {{"xmag", 0}, {"ymag", 1}, {"znear", 0}, {"zfar", 1}}}}), "magnification"));
+    EXPECT_TRUE(says(refused({{"type", "orthographic"}, {"orthographic", {{"xmag", 0}, {"ymag", 1}, {"znear", 0}, {"zfar", 1}}}}),
+                     "magnification"));
     EXPECT_EQ(refused({{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}), "");
 }
 

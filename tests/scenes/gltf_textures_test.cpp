@@ -32,7 +32,7 @@ std::vector<std::byte> ktx2(uint32_t vk_format, uint32_t supercompression) {
     for (const uint32_t field : {vk_format, 1u, 4u, 4u, 0u, 0u, 1u, 1u, supercompression}) append_32(file, field);
     constexpr uint32_t kDescriptorOffset = 80 + 24, kDescriptorBytes = 44;
     for (const uint32_t field : {kDescriptorOffset, kDescriptorBytes, 0u, 0u}) append_32(file, field);
-    append_64(file, 0);   // no supercompression data
+    append_64(file, 0);  // no supercompression data
     append_64(file, 0);
     constexpr uint64_t kDataOffset = 152;
     for (const uint64_t field : {kDataOffset, uint64_t{8}, uint64_t{8}}) append_64(file, field);
@@ -50,7 +50,7 @@ std::vector<std::byte> dds() {
     std::vector<std::byte> file = bytes_of("DDS ");
     for (const uint32_t field : {124u, 0x81007u, 4u, 4u, 8u, 0u, 1u}) append_32(file, field);
     for (int i = 0; i < 11; ++i) append_32(file, 0);
-    for (const uint32_t field : {32u, 4u, 0x31545844u, 0u, 0u, 0u, 0u, 0u}) append_32(file, field);   // "DXT1"
+    for (const uint32_t field : {32u, 4u, 0x31545844u, 0u, 0u, 0u, 0u, 0u}) append_32(file, field);  // "DXT1"
     for (const uint32_t field : {0x1000u, 0u, 0u, 0u, 0u}) append_32(file, field);
     for (const uint8_t b : bc1_block(0x07e0)) file.push_back(std::byte(b));
     return file;

@@ -28,7 +28,8 @@ GltfFixture rich_fixture() {
     primitive["attributes"]["JOINTS_0"] = fixture.add_values<uint8_t>("VEC4", 4, std::vector<uint8_t>(16, 0));
     primitive["attributes"]["WEIGHTS_0"] = fixture.add_vec4(std::vector<float>(16, 0.25f));
     const int sparse = fixture.add("accessors", {{"componentType", 5126}, {"type", "VEC3"}, {"count", 4}});
-    const int sparse_indices = fixture.add_view(bytes_of(std::vector<uint16_t>{0, 2})), sparse_values = fixture.add_view(bytes_of(std::vector<float>(6, 1.0f)));
+    const int sparse_indices = fixture.add_view(bytes_of(std::vector<uint16_t>{0, 2})),
+              sparse_values = fixture.add_view(bytes_of(std::vector<float>(6, 1.0f)));
     fixture.json["accessors"][sparse]["sparse"] = {
         {"count", 2}, {"indices", {{"bufferView", sparse_indices}, {"componentType", 5123}}}, {"values", {{"bufferView", sparse_values}}}};
     primitive["targets"] = {{{"POSITION", sparse}}};
@@ -52,7 +53,8 @@ bool survives(const std::string& path) {
         const shading::Scene scene = load_gltf(path);
         for (const shading::Mesh& mesh : scene.meshes) {
             for (const uint32_t index : mesh.indices) EXPECT_LT(index, mesh.positions.size());
-            for (const size_t length : {mesh.normals.size(), mesh.tangents.size(), mesh.uv[0].size(), mesh.uv[1].size(), mesh.colors.size()})
+            for (const size_t length :
+                 {mesh.normals.size(), mesh.tangents.size(), mesh.uv[0].size(), mesh.uv[1].size(), mesh.colors.size()})
                 EXPECT_TRUE(length == 0 || length == mesh.positions.size());
             EXPECT_LT(mesh.material, scene.materials.size());
         }
@@ -73,14 +75,17 @@ bool survives(const std::string& path) {
 /// Damage of one kind or another, a few bytes of it.
 std::vector<std::byte> mutated(std::vector<std::byte> file, std::mt19937& random) {
     const auto below = [&](size_t n) { return size_t(random() % n); };
-    static constexpr std::string_view kTokens[] = {"0", "-1", "1e999", "4294967296", "9007199254740993", "null", "\"\"", "[]", "{}", "true", "[[", "1e38", ",", "}"};
+    static constexpr std::string_view kTokens[] = {
+        "0", "-1", "1e999", "4294967296", "9007199254740993", "null", "\"\"", "[]", "{}", "true", "[[", "1e38", ",", "}"};
     for (size_t edits = 1 + below(4); edits > 0 && file.size() > 1; --edits) {
         const size_t at = below(file.size());
         switch (below(6)) {
             case 0: file[at] = std::byte(random() & 0xff); break;
             case 1: file[at] ^= std::byte(1u << below(8)); break;
             case 2: file[at] = file[below(file.size())]; break;
-            case 3: file.erase(file.begin() + std::ptrdiff_t(at), file.begin() + std::ptrdiff_t(std::min(file.size(), at + 1 + below(8)))); break;
+            case 3:
+                file.erase(file.begin() + std::ptrdiff_t(at), file.begin() + std::ptrdiff_t(std::min(file.size(), at + 1 + below(8))));
+                break;
             case 4: file.insert(file.begin() + std::ptrdiff_t(at), 1 + below(8), std::byte(random() & 0xff)); break;
             default: {
                 const auto token = bytes_of(kTokens[below(std::size(kTokens))]);
@@ -101,9 +106,9 @@ nlohmann::json with_other_number(nlohmann::json document, std::mt19937& random) 
         if (value->is_structured())
             for (nlohmann::json& element : *value) open.push_back(&element);
     }
-    static const nlohmann::json kNumbers[] = {0,     1,    2,    3,           5,          7,           16,   -1,   255,        256,
-                                              65535, 5121, 5123, 5125,        5126,       2147483647,  1e9,  1e38, 0.5,        -1e30,
-                                              1e12,  6,    100,  4294967295u, 4294967296, 9007199254740991};
+    static const nlohmann::json kNumbers[] = {
+        0,    1,    2,          3,   5,    7,   16,    -1,   255, 256, 65535,       5121,       5123,
+        5125, 5126, 2147483647, 1e9, 1e38, 0.5, -1e30, 1e12, 6,   100, 4294967295u, 4294967296, 9007199254740991};
     *numbers[random() % numbers.size()] = kNumbers[random() % std::size(kNumbers)];
     return document;
 }
@@ -189,10 +194,11 @@ TEST(Hostile, AssimpsTestModelsLoadOrAreRefused) {
     const std::filesystem::path models = "/usr/share/assimp/models/glTF2";
     if (!std::filesystem::is_directory(models)) GTEST_SKIP() << "assimp-testmodels is not installed";
     survive_folder(models, 20);
-    for (const char* negative : {"MissingBin/BoxTextured.gltf", "RecursiveNodes/RecursiveNodes.gltf", "IndexOutOfRange/IndexOutOfRange.gltf",
-                                 "IndexOutOfRange/AllIndicesOutOfRange.gltf", "IncorrectVertexArrays/Cube.gltf", "SchemaFailures/sceneWrongType.gltf",
-                                 "wrongTypes/badArray.gltf", "wrongTypes/badExtension.gltf", "wrongTypes/badNumber.gltf", "wrongTypes/badObject.gltf",
-                                 "wrongTypes/badString.gltf", "wrongTypes/badUint.gltf"})
+    for (const char* negative :
+         {"MissingBin/BoxTextured.gltf", "RecursiveNodes/RecursiveNodes.gltf", "IndexOutOfRange/IndexOutOfRange.gltf",
+          "IndexOutOfRange/AllIndicesOutOfRange.gltf", "IncorrectVertexArrays/Cube.gltf", "SchemaFailures/sceneWrongType.gltf",
+          "wrongTypes/badArray.gltf", "wrongTypes/badExtension.gltf", "wrongTypes/badNumber.gltf", "wrongTypes/badObject.gltf",
+          "wrongTypes/badString.gltf", "wrongTypes/badUint.gltf"})
         EXPECT_NE(file_error((models / negative).string()), "") << negative;
 }
 

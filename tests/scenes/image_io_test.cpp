@@ -85,7 +85,8 @@ TEST(OpenImage, EightBitChannelsBecomeRgba) {
 
 TEST(OpenImage, SixteenBitDataKeepsItsCodesAndColourIsDecodedToFloat) {
     std::vector<uint16_t> codes;
-    for (int i = 0; i < 256; ++i) codes.insert(codes.end(), {uint16_t(i * 257), uint16_t(i * 251 + 3), uint16_t(65535 - i), uint16_t(i * 7)});
+    for (int i = 0; i < 256; ++i)
+        codes.insert(codes.end(), {uint16_t(i * 257), uint16_t(i * 251 + 3), uint16_t(65535 - i), uint16_t(i * 7)});
     const auto png = encode_png(16, 16, 4, 16, std::as_bytes(std::span(codes)));
     const auto data = texture_of(png, false), colour = texture_of(png, true);
     EXPECT_EQ(data->format(), Format::RGBA16Unorm);
@@ -129,7 +130,7 @@ TEST(OpenImage, PalettesAndTheirTransparencyAreExpanded) {
     png.header(2, 1, 8, 3);
     png.chunk("PLTE", {255, 0, 0, 0, 128, 0});
     png.chunk("tRNS", {255, 64});
-    png.pixels({0, 1, 0});   // filter byte, then the indices 1 and 0
+    png.pixels({0, 1, 0});  // filter byte, then the indices 1 and 0
     png.end();
     const auto texture = texture_of(png.bytes(), false);
     EXPECT_EQ(texture->texel(0, 0, 0, 0), (Texel{0, 128.0f / 255.0f, 0, 64.0f / 255.0f}));
@@ -140,7 +141,7 @@ TEST(OpenImage, GammaAndProfilesPlayNoPartAndAreNotComplainedOf) {
     PngParts png;
     png.header(1, 1, 8, 2);
     png.chunk("gAMA", {0, 0, 0x80, 0});
-    png.chunk("iCCP", {'x', 0, 0, 1, 2, 3});   // no profile at all
+    png.chunk("iCCP", {'x', 0, 0, 1, 2, 3});  // no profile at all
     png.pixels({0, 100, 150, 200});
     png.end();
     testing::internal::CaptureStderr();
@@ -162,13 +163,14 @@ TEST(OpenImage, ExtentsOutsideTheLimitsAreRefusedAtOnce) {
     EXPECT_EQ(with_extents(16384, 1), "");
     EXPECT_NE(with_extents(0, 4), "");
     EXPECT_NE(with_extents(4, 0), "");
-    EXPECT_TRUE(says(with_extents(16384, 16384), "truncated image"));   // 268 million pixels in a hundred bytes
+    EXPECT_TRUE(says(with_extents(16384, 16384), "truncated image"));  // 268 million pixels in a hundred bytes
     EXPECT_NE(with_extents(0xffffffff, 1), "");
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(OpenImage, WhatIsNoImageIsRefusedWithOneLine) {
-    for (const char* text : {"", "x", "this is a text", "\x89PNG\r\n\x1a\n", "\xff\xd8\xff", "BM", "#?RADIANCE\n", "P6 nonsense", "\x76\x2f\x31\x01"}) {
+    for (const char* text :
+         {"", "x", "this is a text", "\x89PNG\r\n\x1a\n", "\xff\xd8\xff", "BM", "#?RADIANCE\n", "P6 nonsense", "\x76\x2f\x31\x01"}) {
         testing::internal::CaptureStderr();
         const std::string message = open_error(bytes_of(text));
         EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << text;
@@ -407,7 +409,7 @@ TEST(WriteImage, FilesAreReplacedWholeAndNothingElseIsLeft) {
     EXPECT_EQ(folder.entries(), std::vector<std::string>{"a.png"});
     write_file(folder.file("b.txt"), bytes_of("text"));
     EXPECT_EQ(whole_file(folder.file("b.txt")), bytes_of("text"));
-    write_file("/dev/null", bytes_of("text"));   // a device stays one
+    write_file("/dev/null", bytes_of("text"));  // a device stays one
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
@@ -428,7 +430,8 @@ TEST(EncodePng, HoldsEveryChannelCountAndDepth) {
 TEST(Formats, AreToldByTheExtension) {
     for (const char* name : {"a.exr", "b/c.HDR", "x.tif", "x.tiff", "x.pfm"}) EXPECT_TRUE(is_float_format(name)) << name;
     for (const char* name : {"a.png", "a.jpg", "exr", "a.exr/b", ""}) EXPECT_FALSE(is_float_format(name)) << name;
-    for (const char* name : {"a.png", "a.jpg", "a.jpeg", "a.exr", "a.hdr", "a.tif", "a.bmp", "a.ppm"}) EXPECT_TRUE(is_writable_format(name)) << name;
+    for (const char* name : {"a.png", "a.jpg", "a.jpeg", "a.exr", "a.hdr", "a.tif", "a.bmp", "a.ppm"})
+        EXPECT_TRUE(is_writable_format(name)) << name;
     for (const char* name : {"a.xyz", "a", "png", "", "a.glb"}) EXPECT_FALSE(is_writable_format(name)) << name;
 }
 

@@ -35,7 +35,7 @@ class PngParts {
         const auto low = uint8_t(length & 0xff), high = uint8_t(length / 256);
         std::vector<uint8_t> data = {0x78, 0x01, 1, low, high, uint8_t(~low), uint8_t(~high)};
         data.insert(data.end(), rows.begin(), rows.end());
-        uint32_t a = 1, b = 0;   // Adler-32
+        uint32_t a = 1, b = 0;  // Adler-32
         for (const uint8_t byte : rows) {
             a = (a + byte) % 65521;
             b = (b + a) % 65521;

@@ -44,9 +44,7 @@ Mesh grid(int n, Surface surface, Coordinates coordinates, Cut cut) {
     return mesh;
 }
 
-glm::vec3 hill(float x, float y) {
-    return {x, y, 0.3f * std::sin(x) + 0.2f * std::cos(0.7f * y)};
-}
+glm::vec3 hill(float x, float y) { return {x, y, 0.3f * std::sin(x) + 0.2f * std::cos(0.7f * y)}; }
 constexpr auto kAlwaysOne = [](int, int) { return true; };
 
 /// Largest distance between the corners' tangents and the reference's where the latter says something; signs must agree.
@@ -78,8 +76,9 @@ TEST(MikkTSpace, AgreesWithTheOriginalOnAMirroredGrid) {
         {0.717517614f, 0.0448448472f, 0.695095241f, 1.0f},     {0.878458619f, -0.0675737560f, 0.473016113f, 1.0f},
         {0.717517614f, 0.0448448472f, 0.695095241f, 1.0f},     {0.878458560f, -0.0675737485f, 0.473016083f, 1.0f},
     };
-    Mesh mesh = grid(2, [](float x, float y) { return glm::vec3(x, y, 0.25f * x * x - 0.5f * y); },
-                     [](float x, float y) { return glm::vec2(std::abs(x - 1) * 0.5f + 0.125f * y, 0.25f * y); }, kAlwaysOne);
+    Mesh mesh = grid(
+        2, [](float x, float y) { return glm::vec3(x, y, 0.25f * x * x - 0.5f * y); },
+        [](float x, float y) { return glm::vec2(std::abs(x - 1) * 0.5f + 0.125f * y, 0.25f * y); }, kAlwaysOne);
     for (size_t i = 0; i < mesh.normals.size(); ++i) {
         const glm::dvec3 normal(-0.5 * double(mesh.positions[i].x), 0.5, 1.0);
         mesh.normals[i] = glm::vec3(glm::normalize(normal));
@@ -108,7 +107,8 @@ TEST(MikkTSpace, AgreesWithTheDefinitionInDoublePrecision) {
 }
 
 TEST(MikkTSpace, WeldsVerticesThatAgreeInEverything) {
-    const Mesh mesh = grid(4, hill, [](float x, float y) { return glm::vec2(x, y * y) * 0.1f; }, kAlwaysOne);
+    const Mesh mesh = grid(
+        4, hill, [](float x, float y) { return glm::vec2(x, y * y) * 0.1f; }, kAlwaysOne);
     Mesh separate;
     for (const uint32_t i : mesh.indices) {
         separate.indices.push_back(uint32_t(separate.positions.size()));
@@ -120,7 +120,8 @@ TEST(MikkTSpace, WeldsVerticesThatAgreeInEverything) {
 }
 
 TEST(MikkTSpace, TheOrderOfTrianglesPlaysNoPart) {
-    const Mesh mesh = grid(5, hill, [](float x, float y) { return glm::vec2(std::abs(x - 2), y) * 0.1f; }, kAlwaysOne);
+    const Mesh mesh = grid(
+        5, hill, [](float x, float y) { return glm::vec2(std::abs(x - 2), y) * 0.1f; }, kAlwaysOne);
     std::vector<size_t> order(mesh.indices.size() / 3);
     std::iota(order.begin(), order.end(), size_t{0});
     std::mt19937 random(2);
@@ -155,11 +156,11 @@ TEST(MikkTSpace, TrianglesWithoutTextureAreaJoinTheirNeighbours) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     mesh.normals.assign(4, {0, 0, 1});
-    mesh.uv[0] = {{0, 0}, {1, 0}, {1, 1}, {0.5f, 0.5f}};   // the second triangle's coordinates lie on a line
+    mesh.uv[0] = {{0, 0}, {1, 0}, {1, 1}, {0.5f, 0.5f}};  // the second triangle's coordinates lie on a line
     mesh.indices = {0, 1, 2, 0, 2, 3};
     const auto tangents = corners_of(mesh);
     for (const size_t corner : {0u, 1u, 2u, 3u, 4u}) EXPECT_EQ(tangents[corner], glm::vec4(1, 0, 0, 1)) << corner;
-    EXPECT_EQ(tangents[5], glm::vec4(0.0f));   // vertex 3 has no other triangle
+    EXPECT_EQ(tangents[5], glm::vec4(0.0f));  // vertex 3 has no other triangle
 }
 
 TEST(MikkTSpace, TrianglesWithoutAreaInSpaceFollowTheirVertices) {
@@ -176,7 +177,7 @@ TEST(Tangents, BitangentsPointUpInTheImage) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     mesh.normals.assign(3, {0, 0, 1});
-    mesh.uv[0] = {{0, 1}, {1, 1}, {0, 0}};   // v runs down
+    mesh.uv[0] = {{0, 1}, {1, 1}, {0, 0}};  // v runs down
     mesh.indices = {0, 1, 2};
     generate_tangents(mesh, 0);
     for (const glm::vec4& t : mesh.tangents) {
@@ -186,7 +187,8 @@ TEST(Tangents, BitangentsPointUpInTheImage) {
 }
 
 TEST(Tangents, VerticesOnAMirroredSeamAreSplitAndNothingElseChanges) {
-    Mesh mesh = grid(4, hill, [](float x, float y) { return glm::vec2(std::abs(x - 2), y) * 0.1f; }, kAlwaysOne);
+    Mesh mesh = grid(
+        4, hill, [](float x, float y) { return glm::vec2(std::abs(x - 2), y) * 0.1f; }, kAlwaysOne);
     mesh.uv[1] = mesh.uv[0];
     mesh.colors.assign(mesh.positions.size(), glm::vec4(0.5f));
     const Mesh before = mesh;
@@ -200,7 +202,8 @@ TEST(Tangents, VerticesOnAMirroredSeamAreSplitAndNothingElseChanges) {
         EXPECT_EQ(mesh.normals[mesh.indices[i]], before.normals[before.indices[i]]);
         EXPECT_EQ(mesh.uv[0][mesh.indices[i]], before.uv[0][before.indices[i]]);
         const float middle = (before.positions[before.indices[i / 3 * 3]].x + before.positions[before.indices[i / 3 * 3 + 1]].x +
-                              before.positions[before.indices[i / 3 * 3 + 2]].x) / 3;
+                              before.positions[before.indices[i / 3 * 3 + 2]].x) /
+                             3;
         EXPECT_EQ(mesh.tangents[mesh.indices[i]].w, middle < 2 ? 1.0f : -1.0f) << i;
     }
 }
@@ -227,6 +230,13 @@ TEST(Tangents, AreUnitAndPerpendicularWhateverTheMesh) {
             EXPECT_NEAR(glm::dot(glm::vec3(mesh.tangents[i]), mesh.normals[i]), 0.0f, 1e-2f) << "trial " << trial;
         }
     }
+}
+
+TEST(Tangents, OverflowingCoordinatesDoNoHarm) {
+    Mesh mesh = grid(
+        8, hill, [](float x, float y) { return glm::vec2((x - 3) * 3e37f, (y - 4) * 3e37f); }, kAlwaysOne);
+    generate_tangents(mesh, 0, glm::mat3x2{1e30f, -1e30f, 1e30f, 1e30f, 0, 0});
+    for (size_t i = 0; i < mesh.tangents.size(); ++i) EXPECT_NEAR(glm::length(glm::vec3(mesh.tangents[i])), 1.0f, 1e-3f) << i;
 }
 
 TEST(Tangents, AStarOfManyUnconnectedTrianglesTakesNoTimeSquared) {
@@ -265,7 +275,7 @@ TEST(Tangents, OfTheNormalTangentTestAgreeWithTheDefinition) {
     if (!corpus) GTEST_SKIP() << "RAWTEXEL_CORPUS is not set";
     const shading::Scene scene = load_gltf(std::string(corpus) + "/gltf/khronos_tests/NormalTangentTest.glb");
     const Mesh& mesh = scene.meshes.at(0);
-    constexpr size_t kPart = 900;   // indices: the reference is slow
+    constexpr size_t kPart = 900;  // indices: the reference is slow
     double worst = 0.0;
     for (size_t first = 0; first + kPart <= mesh.indices.size(); first += 6 * kPart) {
         Mesh part = mesh;

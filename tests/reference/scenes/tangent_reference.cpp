@@ -20,7 +20,8 @@ struct Surface {
 };
 
 double texture_area(const Surface& s, size_t triangle) {
-    const glm::dvec2 a = s.coordinate(3 * triangle + 1) - s.coordinate(3 * triangle), b = s.coordinate(3 * triangle + 2) - s.coordinate(3 * triangle);
+    const glm::dvec2 a = s.coordinate(3 * triangle + 1) - s.coordinate(3 * triangle),
+                     b = s.coordinate(3 * triangle + 2) - s.coordinate(3 * triangle);
     return a.x * b.y - a.y * b.x;
 }
 
@@ -34,7 +35,8 @@ glm::dvec3 direction_of_u(const Surface& s, size_t triangle) {
 
 bool counts(const Surface& s, size_t triangle) {
     const size_t c = 3 * triangle;
-    const bool has_corners = s.position(c) != s.position(c + 1) && s.position(c) != s.position(c + 2) && s.position(c + 1) != s.position(c + 2);
+    const bool has_corners =
+        s.position(c) != s.position(c + 1) && s.position(c) != s.position(c + 2) && s.position(c + 1) != s.position(c + 2);
     return has_corners && texture_area(s, triangle) != 0.0;
 }
 
@@ -55,8 +57,8 @@ bool adjoin(const Surface& s, size_t a, size_t b) {
 
 }  // namespace
 
-std::vector<glm::dvec4> corner_tangents(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals, std::span<const glm::vec2> uv,
-                                        std::span<const uint32_t> indices) {
+std::vector<glm::dvec4> corner_tangents(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
+                                        std::span<const glm::vec2> uv, std::span<const uint32_t> indices) {
     const Surface s{positions, normals, uv, indices};
     std::vector<glm::dvec4> tangents(indices.size(), glm::dvec4(0.0));
     for (size_t corner = 0; corner < indices.size(); ++corner) {
