@@ -29,6 +29,7 @@ class SceneAssembly {
 
     /// Index of a new mesh; tangents are dropped where the material has no normal map.
     uint32_t add_mesh(std::string name, uint32_t material, shading::Mesh mesh);
+    const shading::Mesh& mesh(uint32_t index) const { return scene_.meshes[index]; }
     void place(uint32_t mesh, const glm::mat4& world_from_object = glm::mat4(1.0f));
 
     /// A camera at `eye` that sees `target` in the middle; `vertical_fov` in degrees.

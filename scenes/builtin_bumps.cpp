@@ -26,7 +26,7 @@ shading::Scene make_bumps(const texunit::TextureOptions& options) {
     const glm::vec3 to_sun = -shading::sky_sun().direction;
     const glm::vec3 ahead = glm::normalize(glm::vec3(to_sun.x, 0.0f, to_sun.z));
     const glm::vec3 aside(-ahead.z, 0.0f, ahead.x);
-    assembly.add_camera("towards the sun", {0.0f, 1.15f, 0.0f}, ahead * 4.0f - aside * 0.5f + glm::vec3(0.0f, 0.62f, 0.0f), 50.0f);
+    assembly.add_camera("towards the sun", {0.0f, 1.15f, 0.0f}, ahead * 4.0f - aside * 0.5f + glm::vec3(0.0f, 0.42f, 0.0f), 50.0f);
     return assembly.take();
 }
 

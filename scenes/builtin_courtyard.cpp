@@ -36,6 +36,7 @@ Courtyard::Courtyard(SceneAssembly& assembly) : assembly_(assembly), openness_ra
     materials_.terracotta = surface("terracotta", terracotta());
     materials_.soil = surface("soil", garden_soil());
     materials_.oak = surface("oak", oak_planks());
+    materials_.shutter = surface("painted shutters", painted_planks());
     materials_.iron = surface("wrought iron", wrought_iron());
     materials_.bronze = surface("bronze", aged_bronze());
     materials_.tiles = surface("glazed tiles", glazed_tiles());
@@ -70,15 +71,13 @@ uint32_t Courtyard::foliage(const std::string& name, Surface surface) {
 }
 
 void Courtyard::add_plain_materials() {
-    // The oak's maps under two coats of paint, and brick-red voussoirs from the roof's clay.
-    shading::Material paint = assembly_.material(materials_.oak);
-    paint.name = "painted shutters";
-    paint.base_color = glm::vec4(0.30f, 0.75f, 1.0f, 1.0f);
-    materials_.shutter = assembly_.add_material(paint);
+    // Brick-red voussoirs from the maps of the roof's clay.
     shading::Material brick = assembly_.material(materials_.roof);
     brick.name = "red voussoirs";
     brick.base_color = glm::vec4(0.85f, 0.72f, 0.68f, 1.0f);
     materials_.brick = assembly_.add_material(brick);
+    // Single tiles: one sees their undersides along the eaves.
+    assembly_.material(materials_.roof).double_sided = true;
 
     const auto plain = [&](const char* name, glm::vec3 srgb, float roughness) {
         shading::Material material;
@@ -121,7 +120,7 @@ shading::Scene make_courtyard(const texunit::TextureOptions& options) {
     build_garden_wall(court);
     build_fountain(court);
     build_garden(court);
-    assembly.add_camera("afternoon", {4.7f, 1.72f, 7.4f}, {-1.25f, 1.95f, -3.2f}, 46.0f);
+    assembly.add_camera("afternoon", {4.35f, 1.62f, 6.5f}, {-1.2f, 1.92f, -3.2f}, 46.0f);
     assembly.add_sky_and_sun();
     return assembly.take();
 }

@@ -115,6 +115,23 @@ void build_small_pots(Courtyard& court) {
     }
 }
 
+/// A group by the garden wall, near the eye.
+void build_pot_group(Courtyard& court) {
+    const CourtyardMaterials& m = court.materials();
+    const Openness open = [](glm::vec3, glm::vec3) { return 0.8f; };
+    const PotMeshes tall = make_pot(court, "tall pot", 0.58f, 0.27f), low = make_pot(court, "low pot", 0.30f, 0.26f);
+    const uint32_t olive = court.add("olive shrub", m.olive, leaf_ball({0.42f, 0.46f, 0.42f}, 230, 0.30f, 590), open);
+    const uint32_t blossom = court.add("blossom shrub", m.blossom, leaf_ball({0.36f, 0.30f, 0.36f}, 150, 0.22f, 591), open);
+    const uint32_t leafy = court.add("leafy shrub", m.leaves, leaf_ball({0.30f, 0.26f, 0.30f}, 120, 0.22f, 592), open);
+    const auto plant = [&](const PotMeshes& pot, uint32_t shrub, glm::vec3 at, float height, float turn) {
+        place_pot(court, pot, at, turn);
+        court.place(shrub, glm::rotate(moved(at + glm::vec3(0, height, 0)), turn, glm::vec3(0, 1, 0)));
+    };
+    plant(tall, olive, {3.05f, 0.0f, 1.55f}, 0.90f, 0.6f);
+    plant(low, blossom, {2.45f, 0.0f, 1.95f}, 0.48f, 1.9f);
+    plant(low, leafy, {3.35f, 0.0f, 2.25f}, 0.46f, 3.0f);
+}
+
 /// Ivy and bougainvillea that have climbed the walls.
 void build_creepers(Courtyard& court) {
     const CourtyardMaterials& m = court.materials();
@@ -208,6 +225,7 @@ void build_fountain(Courtyard& court) {
 void build_garden(Courtyard& court) {
     build_orange_trees(court);
     build_small_pots(court);
+    build_pot_group(court);
     build_creepers(court);
     build_outer_trees(court);
 }

@@ -26,8 +26,8 @@ glm::mat4 left_side() { return glm::rotate(moved({-kCourt, 0.0f, 0.0f}), glm::ha
 /// Under the arches the sky is seen through the openings only, the less the deeper and the higher one is. `p` in a side's frame.
 float under_arcade(glm::vec3 p, glm::vec3 normal) {
     const float depth = std::clamp(-p.z / kArcadeDepth, 0.0f, 1.0f), rise = std::clamp(p.y / kBay.height, 0.0f, 1.0f);
-    const float outwards = 0.75f + 0.25f * normal.z;
-    return (0.62f - 0.34f * depth) * (1.0f - 0.45f * rise * depth) * outwards;
+    const float outwards = 0.8f + 0.2f * normal.z;
+    return (0.80f - 0.30f * depth) * (1.0f - 0.35f * rise * depth) * outwards;
 }
 
 float bay_openness(glm::vec3 p, glm::vec3 normal) {
@@ -94,9 +94,9 @@ struct Passage {
     shading::Mesh wall, dado, rail, floor, ceiling, beams;
 };
 
-Passage make_passage(float left, float right) {
+Passage make_passage(float left, float right, float wall_right) {
     Passage passage;
-    const float width = right - left, back = -kArcadeDepth, top = kUpperFloor - 0.05f;
+    const float width = right - left, wall_width = wall_right - left, back = -kArcadeDepth, top = kUpperFloor - 0.05f;
     constexpr float kDado = 1.05f;
     const auto grid = [&](shading::Mesh& mesh, glm::vec3 corner, glm::vec3 along, glm::vec3 up, glm::vec3 normal, float metres_per_uv) {
         append_patch(mesh, 24, 8, [&](float s, float t) {
@@ -104,10 +104,10 @@ Passage make_passage(float left, float right) {
             return ShapePoint{corner + s * along + t * up, normal, along, metres / metres_per_uv};
         });
     };
-    grid(passage.wall, {left, kArcadeFloor + kDado, back}, {width, 0, 0}, {0, top - kArcadeFloor - kDado, 0}, {0, 0, 1}, 4.0f);
-    grid(passage.dado, {left, kArcadeFloor, back + 0.015f}, {width, 0, 0}, {0, kDado, 0}, {0, 0, 1}, 1.2f);
-    append_rounded_box(passage.rail, {0.5f * (left + right), kArcadeFloor + kDado + 0.03f, back + 0.02f}, {0.5f * width, 0.03f, 0.035f},
-                       0.01f, 2.0f);
+    grid(passage.wall, {left, kArcadeFloor + kDado, back}, {wall_width, 0, 0}, {0, top - kArcadeFloor - kDado, 0}, {0, 0, 1}, 4.0f);
+    grid(passage.dado, {left, kArcadeFloor, back + 0.015f}, {wall_width, 0, 0}, {0, kDado, 0}, {0, 0, 1}, 1.2f);
+    append_rounded_box(passage.rail, {left + 0.5f * wall_width, kArcadeFloor + kDado + 0.03f, back + 0.02f},
+                       {0.5f * wall_width, 0.03f, 0.035f}, 0.01f, 2.0f);
     grid(passage.floor, {left, kArcadeFloor, 0.06f}, {width, 0, 0}, {0, 0, back - 0.06f}, {0, 1, 0}, 1.6f);
     grid(passage.floor, {left, 0.0f, 0.06f}, {width, 0, 0}, {0, kArcadeFloor, 0}, {0, 0, 1}, 1.6f);
     grid(passage.ceiling, {left, top, back}, {width, 0, 0}, {0, 0, -back}, {0, -1, 0}, 1.2f);
@@ -129,9 +129,9 @@ void build_passages(Courtyard& court) {
         court.place(court.add("ceiling", m.oak, std::move(passage.ceiling), under_arcade), side);
         court.place(court.add("beams", m.oak, std::move(passage.beams), under_arcade), side);
     };
-    // The back passage runs through the corner; in the frame of the left side the corner is at +x.
-    place(make_passage(-kCourt - kArcadeDepth, kCourt + 0.6f), back_side());
-    place(make_passage(-kCourt - 0.6f, kCourt), left_side());
+    // In the frame of the left side the corner is at +x. The back passage runs through it, the left one lends it a wall.
+    place(make_passage(-kCourt - kArcadeDepth, kCourt + 0.6f, kCourt + 0.6f), back_side());
+    place(make_passage(-kCourt - 0.6f, kCourt, kCourt + kArcadeDepth), left_side());
 }
 
 /// A studded door in a stone frame, in the plane z = 0, its threshold's middle at the origin.
@@ -186,6 +186,24 @@ Window make_window(Courtyard& court) {
             court.add("shutters", m.shutter, std::move(shutters), open), court.add("window bars", m.shutter, std::move(bars), open)};
 }
 
+/// Tiles over boards and rafters that stand out from the walls.
+void build_roofs(Courtyard& court) {
+    constexpr float kPitch = 0.20f, kRun = 2.2f, kRise = 0.85f, kOverhang = 0.46f, kEaves = kCornice + 0.10f;
+    const CourtyardMaterials& m = court.materials();
+    shading::Mesh tiles, boards;
+    append_roof(tiles, int((2.0f * kCourt + 2.2f) / kPitch), kPitch, kRun, kRise);
+    append_rounded_box(boards, {0.5f, kEaves - 0.02f, kOverhang - 0.35f}, {kCourt + 0.7f, 0.02f, 0.32f}, 0.008f, 1.2f);
+    for (float x = -kCourt + 0.2f; x < kCourt + 1.0f; x += 0.5f) {
+        append_rounded_box(boards, {x, kEaves - 0.085f, kOverhang - 0.36f}, {0.045f, 0.05f, 0.30f}, 0.01f, 1.2f);
+    }
+    const uint32_t roof = court.add("roof", m.roof, std::move(tiles), [](glm::vec3, glm::vec3) { return 0.95f; });
+    const uint32_t eaves = court.add("eaves", m.oak, std::move(boards), [](glm::vec3, glm::vec3 n) { return 0.55f + 0.25f * n.z; });
+    for (const glm::mat4& side : {back_side() * moved({-0.1f, 0.0f, 0.0f}), left_side() * moved({-0.6f, 0.004f, 0.0f})}) {
+        court.place(roof, side * moved({-kCourt - 1.0f, kEaves, kOverhang - kRun}));
+        court.place(eaves, side);
+    }
+}
+
 }  // namespace
 
 void build_arcades(Courtyard& court) {
@@ -231,13 +249,7 @@ void build_upper_storey(Courtyard& court) {
             place_on_sides(court, part, at);
         }
     }
-
-    constexpr float kPitch = 0.20f, kRun = 2.2f, kRise = 0.85f, kOverhang = 0.42f;
-    shading::Mesh roof;
-    append_roof(roof, int((2.0f * kCourt + 2.2f) / kPitch), kPitch, kRun, kRise);
-    const uint32_t roof_mesh = court.add("roof", m.roof, std::move(roof), [](glm::vec3, glm::vec3) { return 0.95f; });
-    court.place(roof_mesh, back_side() * moved({-kCourt - 1.6f, kCornice + 0.07f, kOverhang - kRun}));
-    court.place(roof_mesh, left_side() * moved({-kCourt - 0.6f, kCornice + 0.07f, kOverhang - kRun}));
+    build_roofs(court);
 }
 
 void build_garden_wall(Courtyard& court) {

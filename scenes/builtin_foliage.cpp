@@ -24,8 +24,8 @@ constexpr float kPatch = 2.0f;                                                  
 /// The lie of the land: level where one stands, rising into hills.
 float ground_height(glm::vec2 p) {
     const float away = smooth_step(4.0f, 90.0f, glm::length(p));
-    const float swell = fractal_noise(p / 34.0f, {64, 64}, 3, 400);
-    return swell * (0.7f + 6.0f * away) + 7.0f * away * away;
+    const float swell = fractal_noise(p / 55.0f, {64, 64}, 2, 400);
+    return swell * (0.6f + 4.0f * away) + 5.0f * away * away;
 }
 
 glm::vec3 ground_normal(glm::vec2 p) {
@@ -62,40 +62,49 @@ uint32_t masked_material(SceneAssembly& assembly, const std::string& name, Surfa
     return index;
 }
 
+constexpr size_t kTrees = 4;
+
 struct PlantedTree {
     uint32_t wood, leaves;
 };
 
-std::array<PlantedTree, 3> make_trees(SceneAssembly& assembly) {
+std::array<PlantedTree, kTrees> make_trees(SceneAssembly& assembly) {
     const uint32_t bark_material = assembly.add_surface_material("bark", bark());
     const uint32_t leaf_material = masked_material(assembly, "leaves", leaf_spray());
-    const std::array<TreeStyle, 3> styles{{
-        {.height = 8.0f,
-         .crown_radius = {3.2f, 2.5f, 3.2f},
-         .trunk_radius = 0.30f,
-         .clusters = 30,
-         .cards = 56,
-         .cluster_radius = 1.05f,
-         .card = 0.58f,
-         .seed = 410},
-        {.height = 9.5f,
-         .crown_radius = {2.3f, 3.3f, 2.3f},
-         .trunk_radius = 0.26f,
-         .clusters = 30,
-         .cards = 46,
-         .cluster_radius = 0.95f,
-         .card = 0.60f,
-         .seed = 420},
-        {.height = 5.5f,
-         .crown_radius = {2.4f, 1.9f, 2.4f},
-         .trunk_radius = 0.20f,
-         .clusters = 20,
-         .cards = 48,
-         .cluster_radius = 0.90f,
-         .card = 0.55f,
-         .seed = 430},
-    }};
-    std::array<PlantedTree, 3> trees{};
+    // A spreading oak for the foreground; a tall, a low and a round tree for the woods.
+    const std::array<TreeStyle, kTrees> styles{{{.height = 8.4f,
+                                                 .crown_radius = {4.0f, 3.1f, 4.0f},
+                                                 .trunk_radius = 0.34f,
+                                                 .clusters = 54,
+                                                 .cards = 84,
+                                                 .cluster_radius = 1.10f,
+                                                 .card = 0.40f,
+                                                 .seed = 410},
+                                                {.height = 10.0f,
+                                                 .crown_radius = {2.5f, 4.2f, 2.5f},
+                                                 .trunk_radius = 0.26f,
+                                                 .clusters = 28,
+                                                 .cards = 32,
+                                                 .cluster_radius = 1.05f,
+                                                 .card = 0.72f,
+                                                 .seed = 420},
+                                                {.height = 5.2f,
+                                                 .crown_radius = {2.4f, 2.2f, 2.4f},
+                                                 .trunk_radius = 0.20f,
+                                                 .clusters = 24,
+                                                 .cards = 32,
+                                                 .cluster_radius = 0.92f,
+                                                 .card = 0.62f,
+                                                 .seed = 430},
+                                                {.height = 7.6f,
+                                                 .crown_radius = {3.2f, 3.1f, 3.2f},
+                                                 .trunk_radius = 0.27f,
+                                                 .clusters = 28,
+                                                 .cards = 32,
+                                                 .cluster_radius = 1.15f,
+                                                 .card = 0.72f,
+                                                 .seed = 440}}};
+    std::array<PlantedTree, kTrees> trees{};
     for (size_t i = 0; i < styles.size(); ++i) {
         Tree tree = grow_tree(styles[i]);
         const std::string name = "tree " + std::to_string(i);
@@ -113,20 +122,25 @@ void plant(SceneAssembly& assembly, const PlantedTree& tree, glm::vec2 p, float 
 
 /// A few trees set by hand, then woods that close in with distance and leave a glade in the middle.
 void plant_trees(SceneAssembly& assembly) {
-    const std::array<PlantedTree, 3> trees = make_trees(assembly);
-    plant(assembly, trees[0], {6.4f, -11.5f}, 0.4f, 1.0f);
-    plant(assembly, trees[1], {-8.5f, -20.0f}, 2.1f, 1.0f);
-    plant(assembly, trees[2], {-3.4f, -31.0f}, 1.0f, 1.0f);
-    plant(assembly, trees[0], {14.0f, -34.0f}, 3.3f, 1.15f);
+    const std::array<PlantedTree, kTrees> trees = make_trees(assembly);
+    plant(assembly, trees[0], {6.2f, -12.0f}, 0.4f, 1.0f);
+    plant(assembly, trees[1], {-9.5f, -21.0f}, 2.1f, 0.95f);
+    plant(assembly, trees[3], {-13.5f, -26.0f}, 0.3f, 1.0f);
+    plant(assembly, trees[2], {-4.2f, -33.0f}, 1.0f, 1.0f);
+    plant(assembly, trees[0], {16.0f, -36.0f}, 3.3f, 1.05f);
+    const uint32_t leaves = assembly.mesh(trees[0].leaves).material;
+    const uint32_t bush = assembly.add_mesh("bush", leaves, leaf_ball({1.7f, 1.2f, 1.7f}, 110, 0.75f, 445));
     constexpr float kPitch = 8.0f;
     for (int row = 0; row < 12; ++row) {
         for (int column = -8; column <= 8; ++column) {
             const glm::vec2 jitter(lattice_float(column, row, 440), lattice_float(column, row, 441));
             const glm::vec2 p = kPitch * (glm::vec2(column, -row) + 0.8f * (jitter - 0.5f)) + glm::vec2(0.0f, -42.0f);
-            const float density = smooth_step(30.0f, 110.0f, -p.y) + smooth_step(14.0f, 40.0f, std::abs(p.x)) * 0.5f;
+            const float density = smooth_step(40.0f, 95.0f, -p.y) + smooth_step(14.0f, 40.0f, std::abs(p.x)) * 0.6f;
             if (lattice_float(column, row, 442) < density && p.x > kLeft && p.x < kRight) {
                 const float random = lattice_float(column, row, 443);
-                plant(assembly, trees[lattice_bits(column, row, 444) % 3], p, kTau * random, 0.8f + 0.5f * random);
+                plant(assembly, trees[1 + lattice_bits(column, row, 444) % 3], p, kTau * random, 0.8f + 0.5f * random);
+                // Undergrowth beside it.
+                assembly.place(bush, rooted(p + 2.5f * (jitter - 0.5f), kTau * jitter.x, 0.8f + 0.9f * jitter.y, 0.0f));
             }
         }
     }
@@ -136,9 +150,9 @@ void plant_trees(SceneAssembly& assembly) {
 void plant_meadow(SceneAssembly& assembly) {
     const uint32_t grass = masked_material(assembly, "grass", grass_tuft());
     const uint32_t flowers = masked_material(assembly, "flowers", flower_tuft());
-    const std::array<uint32_t, 2> grass_patches{assembly.add_mesh("grass 0", grass, tuft_patch(44, kPatch, 0.34f, 0.46f, 450)),
-                                                assembly.add_mesh("grass 1", grass, tuft_patch(44, kPatch, 0.28f, 0.42f, 451))};
-    const uint32_t flower_patch = assembly.add_mesh("flowers", flowers, tuft_patch(11, kPatch, 0.42f, 0.40f, 452));
+    const std::array<uint32_t, 2> grass_patches{assembly.add_mesh("grass 0", grass, tuft_patch(48, kPatch, 0.32f, 0.46f, 450)),
+                                                assembly.add_mesh("grass 1", grass, tuft_patch(48, kPatch, 0.27f, 0.42f, 451))};
+    const uint32_t flower_patch = assembly.add_mesh("flowers", flowers, tuft_patch(10, kPatch, 0.40f, 0.40f, 452));
     for (int row = -2; row < 24; ++row) {
         const float z = -float(row) * kPatch;
         const int reach = int((6.0f - 0.55f * std::min(z, 0.0f)) / kPatch);
@@ -148,7 +162,7 @@ void plant_meadow(SceneAssembly& assembly) {
             if (lattice_float(column, row, 461) < 1.35f - 0.022f * float(row * 2)) {
                 assembly.place(grass_patches[lattice_bits(column, row, 462) & 1u], rooted(p, quarter_turn, 1.0f, 1.0f));
             }
-            if (gradient_noise(p / 7.0f, {64, 64}, 463) > -0.05f) {
+            if (gradient_noise(p / 7.0f, {64, 64}, 463) > -0.25f) {
                 assembly.place(flower_patch, rooted(p, quarter_turn, 1.0f, 1.0f));
             }
         }

@@ -26,23 +26,19 @@ glm::vec3 evening_sky(glm::vec2 p) {
 
 /// The balloon's envelope in gores of alternating colour, shaded as a ball; false outside it.
 bool paint_balloon(glm::vec2 p, glm::vec3& color) {
-    const glm::vec2 center(27.5f, 27.5f);
-    const glm::vec2 d = p - center;
+    const glm::vec2 d = p - glm::vec2(27.5f, 29.0f);
     // A ball above, drawn in towards the mouth below.
-    const float half_width = d.y < 0.0f ? std::sqrt(std::max(0.0f, 81.0f - d.y * d.y))
-                                        : 9.0f * std::sqrt(std::max(0.0f, 1.0f - d.y * d.y / 150.0f)) - 0.27f * d.y;
-    if (std::abs(d.x) > half_width || d.y > 10.0f || half_width < 0.5f) {
-        return false;
-    }
-    const float across = std::asin(std::clamp(d.x / half_width, -1.0f, 1.0f));
-    const int gore = int(std::floor(across / 0.52f + 100.5f));
-    static const std::array<glm::vec3, 3> kCloth{hex(0xE63946), hex(0xFFF3DC), hex(0x1D8A99)};
-    color = kCloth[size_t(gore % 3)];
+    constexpr float kRadius = 8.2f;
+    const float half_width = d.y < 0.0f ? std::sqrt(std::max(0.0f, kRadius * kRadius - d.y * d.y))
+                                        : kRadius * std::sqrt(std::max(0.0f, 1.0f - d.y * d.y / 125.0f)) - 0.27f * d.y;
+    if (std::abs(d.x) > half_width || d.y > 9.0f || half_width < 0.5f) return false;
+    static const std::array<glm::vec3, 5> kGores{hex(0x1D8A99), hex(0xE63946), hex(0xFFF3DC), hex(0xE63946), hex(0x1D8A99)};
+    // Gores are equally wide on the ball, so they narrow towards its outline.
+    const float across = std::asin(std::clamp(d.x / half_width, -1.0f, 1.0f)) * 0.318310f + 0.5f;
+    const size_t gore = std::min(size_t(across * 5.0f), size_t{4});
     const bool band = d.y > 1.0f && d.y < 3.0f;
-    if (band) {
-        color = hex(gore % 2 == 0 ? 0xF4B942 : 0x27325C);
-    }
-    color *= std::clamp(0.93f - 0.022f * d.x - 0.016f * d.y, 0.45f, 1.0f);
+    color = band ? hex(gore % 2 == 0 ? 0xFFC22E : 0x27325C) : kGores[gore];
+    color *= std::clamp(0.95f - 0.022f * d.x - 0.016f * d.y, 0.45f, 1.0f);
     return true;
 }
 
@@ -64,14 +60,14 @@ glm::vec3 landscape(glm::vec2 p) {
     glm::vec3 color = evening_sky(p);
     // The sun and, over it, a bank of cloud with hard edges.
     if (glm::distance(p, {44.0f, 29.0f}) < 5.2f) {
-        color = hex(0xFFF6C9);
+        color = hex(0xFFE873);
     }
     const auto cloud = [&](float row, float left, float right) { return std::abs(p.y - row) < 0.6f && p.x > left && p.x < right; };
     if (cloud(31.5f, 38.0f, 48.0f) || cloud(33.5f, 41.0f, 58.0f) || cloud(24.5f, 8.0f, 15.0f)) {
         color = hex(0x7A4E86);
     }
     // Stars: the impulse response of the kernel, nothing less.
-    static constexpr std::array<glm::ivec2, 9> kStars{glm::ivec2{14, 21}, {39, 21}, {46, 20}, {50, 22}, {12, 30}, {6, 9}, {33, 6},
+    static constexpr std::array<glm::ivec2, 9> kStars{glm::ivec2{14, 21}, {39, 21}, {46, 20}, {50, 22}, {13, 34}, {6, 9}, {33, 6},
                                                       {55, 12},           {22, 12}};
     if (std::find(kStars.begin(), kStars.end(), glm::ivec2(p)) != kStars.end()) {
         color = hex(0xFFFFFF);

@@ -80,9 +80,9 @@ Surface inlay() {
         SurfacePoint point;
         // Gold that reflects all red, next to lacquer that reflects a twentieth: the widest step that materials offer.
         const bool metal = is_metal(texel + 0.5f - 0.5f * float(kTexels), glm::ivec2(texel));
-        point.color = metal ? hex(0xFFE3A0) : hex(0x3B3F46);
+        point.color = metal ? hex(0xFFD38C) : hex(0x3B3F46);
         point.metallic = metal ? 1.0f : 0.0f;
-        point.roughness = metal ? 0.30f : 0.18f;
+        point.roughness = metal ? 0.34f : 0.22f;
         return point;
     });
 }
@@ -113,14 +113,24 @@ shading::Scene make_metal_edge(const texunit::TextureOptions& options) {
     }
     assembly.place(assembly.add_mesh("shield", material, shield()));
 
+    // Dark cloth behind it.
+    shading::Material cloth;
+    cloth.name = "cloth";
+    cloth.base_color = {0.035f, 0.065f, 0.07f, 1.0f};
+    cloth.metallic = 0.0f;
+    cloth.roughness = 0.95f;
+    shading::Mesh backdrop;
+    append_rectangle(backdrop, {-6.0f, -4.0f, -0.9f}, {12.0f, 0.0f, 0.0f}, {0.0f, 8.0f, 0.0f}, {0.0f, 1.0f}, {1.0f, 0.0f});
+    assembly.place(assembly.add_mesh("backdrop", assembly.add_material(cloth), std::move(backdrop)));
+
     shading::Light lamp;
     lamp.name = "lamp";
     lamp.type = shading::Light::Type::Point;
-    lamp.position = {-1.5f, 1.4f, 2.4f};
+    lamp.position = {-1.7f, 1.5f, 2.2f};
     lamp.color = {1.0f, 0.95f, 0.88f};
-    lamp.intensity = 16.0f;
+    lamp.intensity = 26.0f;
     assembly.add_light(lamp);
-    assembly.add_camera("front", {0.55f, 0.15f, 2.35f}, {0.02f, -0.02f, 0.1f}, 42.0f);
+    assembly.add_camera("front", {0.75f, 0.25f, 2.62f}, {0.0f, 0.0f, 0.08f}, 42.0f);
     assembly.set_environment(shading::EnvironmentRequest::Sky);
     return assembly.take();
 }

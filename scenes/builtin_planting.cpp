@@ -113,7 +113,7 @@ shading::Mesh tuft_patch(int tufts, float extent, float height, float width, uin
         card.foot = {extent * (lattice_float(i, 2, seed) - 0.5f), -0.02f, extent * (lattice_float(i, 3, seed) - 0.5f)};
         card.up = {0.12f * height * (lattice_float(i, 4, seed) - 0.5f), height * grow, 0.12f * height * (lattice_float(i, 5, seed) - 0.5f)};
         card.normal = glm::normalize(glm::vec3(0.5f * (lattice_float(i, 6, seed) - 0.5f), 1.0f, 0.5f * (lattice_float(i, 7, seed) - 0.5f)));
-        card.tint = glm::vec3(0.85f + 0.3f * lattice_float(i, 8, seed), 1.0f, 0.9f) * (0.8f + 0.35f * lattice_float(i, 9, seed));
+        card.tint = glm::vec3(0.8f + 0.2f * lattice_float(i, 8, seed), 1.0f, 0.9f) * (0.9f + 0.1f * lattice_float(i, 9, seed));
         for (const float turn : {0.0f, glm::half_pi<float>()}) {
             card.right = glm::vec3(std::cos(angle + turn), 0.0f, std::sin(angle + turn)) * (width * grow);
             append_card(mesh, card);

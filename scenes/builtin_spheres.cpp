@@ -69,14 +69,16 @@ shading::Mesh globe() {
 glm::mat4 placement(int column, int row) {
     const float middle = 0.5f * float(kPerSide - 1);
     const glm::mat4 move = glm::translate(glm::mat4(1.0f), {float(column) - middle, kRadius, float(row) - middle});
-    const glm::mat4 tilt = glm::rotate(move, 0.9f * (lattice_float(column, row, 210) - 0.5f), glm::vec3(1, 0, 0));
-    return glm::rotate(tilt, 2.0f * glm::pi<float>() * lattice_float(column, row, 211), glm::vec3(0, 1, 0));
+    // The poles, where the texture is pinched, lie to the sides.
+    const float lean = glm::half_pi<float>() + 0.3f * (lattice_float(column, row, 210) - 0.5f);
+    return glm::rotate(glm::rotate(move, lean, glm::vec3(0, 0, 1)), 2.0f * glm::pi<float>() * lattice_float(column, row, 211),
+                       glm::vec3(0, 1, 0));
 }
 
 void add_floor(SceneAssembly& assembly) {
     const uint32_t stone = assembly.add_surface_material("limestone floor", limestone());
     assembly.material(stone).roughness = 0.8f;
-    constexpr float kHalf = 7.0f, kRepeats = 7.0f;
+    constexpr float kHalf = 24.0f, kRepeats = 20.0f;  // reaches beyond the picture
     shading::Mesh floor;
     append_rectangle(floor, {-kHalf, 0.0f, kHalf}, {2.0f * kHalf, 0.0f, 0.0f}, {0.0f, 0.0f, -2.0f * kHalf}, {0.0f, kRepeats},
                      {kRepeats, 0.0f});
@@ -107,7 +109,7 @@ shading::Scene make_spheres(const texunit::TextureOptions& options) {
         }
     }
     add_floor(assembly);
-    assembly.add_camera("overview", {-3.6f, 5.0f, 8.6f}, {-0.1f, 0.0f, 0.6f}, 38.0f);
+    assembly.add_camera("overview", {-4.4f, 6.1f, 9.9f}, {0.2f, 0.0f, 0.7f}, 36.5f);
     assembly.add_sky_and_sun();
     return assembly.take();
 }

@@ -61,8 +61,8 @@ Surface cobblestones() {
         const float dome = rise * (1.0f - 0.45f * glm::dot(stone.from_center, stone.from_center));
         const glm::vec2 lean(random_part(stone.id, 16) - 0.5f, random_part(stone.id, 24) - 0.5f);
 
-        glm::vec3 rock = glm::mix(hex(0x8C8478), hex(0xB5A690), random_part(stone.id, 0));
-        rock = glm::mix(rock, random_part(stone.id, 8) < 0.5f ? hex(0xA98D72) : hex(0x7E8487), 0.55f * random_part(stone.id, 12));
+        glm::vec3 rock = glm::mix(hex(0x9C8E7A), hex(0xC7B396), random_part(stone.id, 0));
+        rock = glm::mix(rock, random_part(stone.id, 8) < 0.5f ? hex(0xB8906C) : hex(0x8D8A84), 0.55f * random_part(stone.id, 12));
         rock *= 0.96f + 0.16f * fine;
         const glm::vec3 sand = hex(0x8F7D5F) * (0.82f + 0.25f * fine);
         const float moss = smooth_step(0.05f, 0.42f, patch + 0.25f * fine) * (1.0f - smooth_step(0.02f, 0.14f, stone.edge));

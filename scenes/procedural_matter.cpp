@@ -122,6 +122,20 @@ Surface oak_planks() {
     });
 }
 
+Surface painted_planks() {
+    return square_surface(1.2f, 512, [oak = oak_planks().at](glm::vec2 p) {
+        SurfacePoint point = oak(p);
+        const float luminance = glm::dot(point.color, glm::vec3(0.3f, 0.6f, 0.1f));
+        const float worn = smooth_step(0.22f, 0.42f, swatch_noise(p, 6, 5, 145) + 0.25f * (1.0f - point.occlusion));
+        const glm::vec3 paint =
+            glm::mix(hex(0x2C6E86), hex(0x4FA0AE), smooth_step(0.1f, 0.6f, luminance)) * (0.45f + 0.55f * point.occlusion);
+        point.color = glm::mix(paint, point.color, 0.8f * worn);
+        point.roughness = glm::mix(0.5f, point.roughness, worn);
+        point.metallic = 0.0f;
+        return point;
+    });
+}
+
 Surface wrought_iron() {
     return square_surface(1.0f, 512, [](glm::vec2 p) {
         const float dents = swatch_noise(p, 14, 3, 90), fine = swatch_noise(p, 60, 3, 91);

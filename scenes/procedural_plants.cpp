@@ -144,7 +144,7 @@ std::vector<Blade> grow_blades(int count, float height, uint32_t seed) {
         blade.lean = std::clamp(blade.lean, 0.02f - blade.base, 0.98f - blade.base);
         blade.height = height * (0.45f + 0.55f * lattice_float(i, 2, seed));
         blade.width = 0.010f + 0.010f * lattice_float(i, 3, seed);
-        static const std::array<glm::vec3, 4> kGreens{hex(0x6F9A3A), hex(0x88B04B), hex(0xA6B85A), hex(0x587F34)};
+        static const std::array<glm::vec3, 4> kGreens{hex(0x8FB542), hex(0xA6C64E), hex(0xC6CC64), hex(0x76A03A)};
         blade.color = kGreens[lattice_bits(i, 4, seed) % 4];
         blades.push_back(blade);
     }
@@ -158,7 +158,7 @@ void paint_blade(const Blade& blade, glm::vec2 p, SurfacePoint& point) {
     }
     const float inside = blade.width * (1.0f - t * t) - std::abs(p.x - blade.base - blade.lean * t * t);
     if (inside > -0.5f / float(kTexels)) {
-        point.color = blade.color * (0.55f + 0.55f * t);
+        point.color = blade.color * (0.62f + 0.42f * t);
         point.alpha = std::max(point.alpha, std::clamp(inside * float(kTexels) + 0.5f, 0.0f, 1.0f));
     }
 }
@@ -173,7 +173,7 @@ std::vector<Flower> grow_flowers(int count, uint32_t seed) {
     std::vector<Flower> flowers;
     for (int i = 0; i < count; ++i) {
         Flower flower;
-        flower.kind = int(lattice_bits(i, 0, seed) % 4);
+        flower.kind = (i * 3 + 1) % 4;  // all kinds in turn
         flower.center = {0.1f + 0.8f * lattice_float(i, 1, seed), 0.1f + 0.42f * lattice_float(i, 2, seed)};
         flower.foot = {0.5f + 0.6f * (flower.center.x - 0.5f), 1.0f};
         flower.radius = (flower.kind < 2 ? 0.075f : 0.055f) * (0.8f + 0.4f * lattice_float(i, 3, seed));
@@ -205,7 +205,7 @@ Surface leaf_spray() {
                   .length = 0.30f,
                   .width = 0.062f,
                   .spread = 1.25f,
-                  .colors = {hex(0x6F9C2E), hex(0x557F2A), hex(0x86AE3F)},
+                  .colors = {hex(0x7FA033), hex(0x64862C), hex(0x9BB548)},
                   .seed = 300});
 }
 
@@ -255,7 +255,7 @@ Surface grass_tuft() {
 }
 
 Surface flower_tuft() {
-    return square_surface(0.5f, kTexels, [blades = grow_blades(26, 0.7f, 350), flowers = grow_flowers(9, 351)](glm::vec2 p) {
+    return square_surface(0.5f, kTexels, [blades = grow_blades(26, 0.7f, 350), flowers = grow_flowers(12, 351)](glm::vec2 p) {
         SurfacePoint point = bare(hex(0x5E7F36));
         for (const Blade& blade : blades) {
             paint_blade(blade, p, point);
@@ -287,7 +287,7 @@ Surface meadow_ground() {
         const float fine = swatch_noise(p, 128, 3, 370), blades = fractal_noise(p * glm::vec2(160.0f, 60.0f), {160, 60}, 2, 371);
         const float patch = swatch_noise(p, 4, 4, 372), flowers = swatch_noise(p, 110, 1, 373);
         SurfacePoint point;
-        point.color = glm::mix(hex(0x5B7A2E), hex(0x93AE4C), smooth_step(-0.5f, 0.5f, patch + 0.6f * blades));
+        point.color = glm::mix(hex(0x638030), hex(0x90AA48), smooth_step(-0.5f, 0.5f, patch + 0.6f * blades));
         point.color = glm::mix(point.color, hex(0xB5A868), 0.5f * smooth_step(0.1f, 0.6f, swatch_noise(p, 6, 3, 374)));
         point.color *= 0.92f + 0.35f * fine;
         if (flowers > 0.62f) {
