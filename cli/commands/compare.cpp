@@ -27,13 +27,18 @@ struct Comparison {
     ImageError error;
 };
 
-// The colour channels alone: alpha and further layers are left out.
+// The colour channels as they show over black; further layers are left out. Float formats hold colour times alpha already, the others do not.
 Image read_colour(const std::string& path) {
     const Image whole = scenes::read_image(path, /*srgb_integers=*/false);
     const int channels = whole.channels >= 3 ? 3 : 1;
+    const bool has_alpha = whole.channels == channels + 1 && !scenes::is_float_format(path);
     Image colour(whole.width, whole.height, channels);
     for (int y = 0; y < whole.height; ++y)
-        for (int x = 0; x < whole.width; ++x) std::copy_n(whole.pixel(x, y), channels, colour.pixel(x, y));
+        for (int x = 0; x < whole.width; ++x) {
+            const float* from = whole.pixel(x, y);
+            const float alpha = has_alpha ? from[channels] : 1.0f;
+            std::transform(from, from + channels, colour.pixel(x, y), [&](float value) { return value * alpha; });
+        }
     return colour;
 }
 
@@ -129,7 +134,8 @@ class CompareCommand : public Command {
     std::string_view usage() const override { return "compare IMAGE REFERENCE [MORE...] [options]"; }
     std::string_view summary() const override {
         return "Measures how far images are from a reference: MSE, RMSE, PSNR (peak 1), relMSE, largest and mean difference of the colour "
-               "channels. Float images are compared as linear values, 8-bit images as display values from 0 to 1.";
+               "channels. Float images are compared as linear values, 8-bit images as display values from 0 to 1, shown over black where they "
+               "are transparent.";
     }
 
     void declare(CommandLine& line) override {

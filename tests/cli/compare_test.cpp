@@ -69,7 +69,7 @@ TEST(Compare, EqualImagesHaveNoFiniteDecibels) {
     EXPECT_EQ(run({"compare", folder / "a.png", folder / "a.png", "--min-psnr", "1000", "--max-rmse", "0"}).code, kDone);
 }
 
-TEST(Compare, AlphaIsLeftOutAndGreyIsColour) {
+TEST(Compare, OpaqueAlphaChangesNothingAndGreyIsColour) {
     const TemporaryFolder folder;
     write_flat_png(folder / "grey.png", 90, 1);
     write_flat_png(folder / "rgb.png", 90, 3);
@@ -78,6 +78,15 @@ TEST(Compare, AlphaIsLeftOutAndGreyIsColour) {
     scenes::write_8bit(folder / "rgba.png", 8, 4, 4, codes, {});
     for (const char* test : {"grey.png", "rgba.png"})
         EXPECT_EQ(Json::parse(run({"compare", folder / test, folder / "rgb.png", "--json"}).out)["images"][0]["max"], 0.0) << test;
+}
+
+TEST(Compare, TransparentPixelsShowBlack) {
+    const TemporaryFolder folder;
+    std::vector<uint8_t> clear, black(8 * 4 * 3, 0);
+    for (int i = 0; i < 32; ++i) clear.insert(clear.end(), {200, 100, 50, 0});
+    scenes::write_8bit(folder / "clear.png", 8, 4, 4, clear, {});
+    scenes::write_8bit(folder / "black.png", 8, 4, 3, black, {});
+    EXPECT_EQ(Json::parse(run({"compare", folder / "clear.png", folder / "black.png", "--json"}).out)["images"][0]["max"], 0.0);
 }
 
 TEST(Compare, ChecksAreExitCode1) {

@@ -79,6 +79,16 @@ TEST(Progress, ATerminalGetsABarWithRateAndTimeLeft) {
     EXPECT_TRUE(report.out.str().ends_with("\r\033[K"));
 }
 
+TEST(Progress, TheBarNeverGoesBack) {
+    Report report(ProgressMode::Always, true);
+    report.now += 1.0;
+    report.progress.update(0.5);
+    const std::string before = report.out.str();
+    report.now += 1.0;
+    report.progress.update(0.25);
+    EXPECT_EQ(report.out.str(), before);
+}
+
 TEST(Progress, TheBarIsGoneWhenARunFails) {
     std::ostringstream out;
     double now = 0.0;

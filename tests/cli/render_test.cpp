@@ -342,7 +342,7 @@ TEST(RenderErrors, EveryFileOfASceneMustBeThere) {
     test::write_file(folder / "texture.png", png);
     for (const std::string& bytes : {std::string(), bin.substr(0, 100)}) {
         test::write_file(folder / "quad.bin", bytes);
-        EXPECT_EQ(fails_with("quad.bin"), "") << bytes.size() << " bytes";
+        EXPECT_EQ(fails_with("buffers[0]"), "") << bytes.size() << " bytes";
     }
     std::filesystem::remove(folder / "quad.bin");
     EXPECT_EQ(fails_with("quad.bin"), "");
