@@ -23,6 +23,7 @@ TEST_P(Gallery, looks_as_it_did) {
     const std::string golden = std::string(RAWTEXEL_TEST_DATA) + "/gallery/" + scene + ".png";
     const bool update = std::getenv("RAWTEXEL_UPDATE_GOLDEN") != nullptr;
     const std::string drawn = update ? golden : (std::filesystem::temp_directory_path() / ("rawtexel-golden-" + scene + ".png")).string();
+    if (update) std::filesystem::create_directories(std::filesystem::path(golden).parent_path());
     const std::string command = std::string(RAWTEXEL_PROGRAM) + " render " + scene + " --size 192x108 --spp 4 --progress never -o " + drawn + " > /dev/null";
     ASSERT_EQ(std::system(command.c_str()), 0) << command;
     if (update) GTEST_SKIP() << "RAWTEXEL_UPDATE_GOLDEN is set: wrote " << golden;
