@@ -111,12 +111,14 @@ void read_buffers(GltfDocument& document, const json& checked, Resources& resour
     const json none = json::array();
     const json& buffers = checked.contains("buffers") ? checked["buffers"] : none;
     for (size_t i = 0; i < buffers.size(); ++i) {
-        const std::string what = "buffers[" + std::to_string(i) + "]";
+        std::string what = "buffers[" + std::to_string(i) + "]";
         GltfBuffer buffer;
         buffer.declared_bytes = buffers[i]["byteLength"].get<uint64_t>();
         if (buffers[i].contains("uri")) {
+            const std::string uri = buffers[i]["uri"].get<std::string>();
             std::string mime_type;
-            const SharedBytes bytes = resources.read(buffers[i]["uri"].get<std::string>(), what, mime_type);
+            const SharedBytes bytes = resources.read(uri, what, mime_type);
+            if (uri.rfind("data:", 0) != 0) what += " '" + uri + "'";
             buffer.owner = bytes;
             buffer.bytes = *bytes;
         } else if (i == 0 && binary) {
