@@ -13,7 +13,7 @@ namespace rawtexel::shading {
 /// aligned ranges that cover it, so it has one representation, and sums made apart merge to the bits of a sum made in one go.
 class SampleTree {
   public:
-    static constexpr int kFloatLevels = 4;   ///< ranges of up to 2^4 samples are sums of floats
+    static constexpr int kFloatLevels = 4;  ///< ranges of up to 2^4 samples are sums of floats
 
     explicit SampleTree(size_t width) : width_(width) {}
 
@@ -38,7 +38,7 @@ class SampleTree {
     struct Range {
         uint64_t first = 0;
         int level = 0;
-        std::vector<float> low;     ///< level <= kFloatLevels
+        std::vector<float> low;  ///< level <= kFloatLevels
         std::vector<double> high;
     };
 
@@ -49,8 +49,8 @@ class SampleTree {
     void recycle(Range& range);
 
     size_t width_;
-    std::vector<Range> ranges_;                    ///< in the order of their samples
-    std::vector<std::vector<float>> free_low_;     ///< memory of ranges that are gone
+    std::vector<Range> ranges_;                 ///< in the order of their samples
+    std::vector<std::vector<float>> free_low_;  ///< memory of ranges that are gone
     std::vector<std::vector<double>> free_high_;
 };
 

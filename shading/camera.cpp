@@ -9,7 +9,7 @@
 namespace rawtexel::shading {
 namespace {
 
-constexpr float kDefaultFov = 0.785398163f;   // 45 degrees
+constexpr float kDefaultFov = 0.785398163f;  // 45 degrees
 
 /// A point or an empty scene is looked at as if it had the extent of a metre.
 float framed_radius(const Bounds& bounds) { return bounds.radius() > 0.0f ? bounds.radius() : 1.0f; }

@@ -25,7 +25,8 @@ HWY_INLINE void reduce_range(texunit::Wrap wrap, CornerCoordinate& c) {
     if (wrap == texunit::Wrap::ClampToEdge) return;
     const FloatLanes d;
     const auto least = hn::Min(c.f0, hn::Min(c.f1, c.f2));
-    const auto period = wrap == texunit::Wrap::MirroredRepeat ? hn::Mul(hn::Set(d, 2.0f), hn::Floor(hn::Mul(least, hn::Set(d, 0.5f)))) : hn::Floor(least);
+    const auto period =
+        wrap == texunit::Wrap::MirroredRepeat ? hn::Mul(hn::Set(d, 2.0f), hn::Floor(hn::Mul(least, hn::Set(d, 0.5f)))) : hn::Floor(least);
     c = {hn::Sub(c.f0, period), hn::Sub(c.f1, period), hn::Sub(c.f2, period)};
 }
 
@@ -45,7 +46,8 @@ HWY_INLINE void corner_coordinates(const CoordinateState& state, const Mesh& mes
     if (!set.empty()) {
         const float* values = &set[0].x;
         u = {corners.template corner<2>(0, values, i), corners.template corner<2>(1, values, i), corners.template corner<2>(2, values, i)};
-        v = {corners.template corner<2>(0, values + 1, i), corners.template corner<2>(1, values + 1, i), corners.template corner<2>(2, values + 1, i)};
+        v = {corners.template corner<2>(0, values + 1, i), corners.template corner<2>(1, values + 1, i),
+             corners.template corner<2>(2, values + 1, i)};
     }
     if (state.identity) return;
     const glm::mat3x2& m = state.uv_from_vertex;

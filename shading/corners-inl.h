@@ -15,7 +15,7 @@ namespace HWY_NAMESPACE {
 
 /// All lanes lie on one triangle: corner values are loaded once.
 struct OneTriangle {
-    const uint32_t* vertex;   ///< 3 indices
+    const uint32_t* vertex;  ///< 3 indices
 
     /// Component of attribute `values` (`kStride` floats a vertex) at corner `k`.
     template <int kStride>
@@ -26,7 +26,7 @@ struct OneTriangle {
 
 /// Each lane has its own triangle: corner values are gathered.
 struct TrianglePerLane {
-    texunit::WaveInt vertex[3];   ///< lanes without a triangle hold a valid index
+    texunit::WaveInt vertex[3];  ///< lanes without a triangle hold a valid index
 
     template <int kStride>
     HWY_INLINE FloatVector corner(int k, const float* values, size_t i) const {

@@ -16,7 +16,7 @@ namespace rawtexel::shading {
 /// One way in which maps of a material are addressed. Maps that agree share one, and its coordinates are computed once.
 struct CoordinateState {
     int uv_set = 0;
-    bool identity = true;                         ///< no KHR_texture_transform
+    bool identity = true;  ///< no KHR_texture_transform
     glm::mat3x2 uv_from_vertex{1, 0, 0, 1, 0, 0};
     texunit::Wrap wrap_s = texunit::Wrap::Repeat, wrap_t = texunit::Wrap::Repeat;
 };
@@ -24,14 +24,14 @@ struct CoordinateState {
 /// One lookup. `texture` is null where the factor alone decides.
 struct MapState {
     texunit::Texture* texture = nullptr;
-    uint32_t texture_index = 0;                   ///< in Scene::textures
+    uint32_t texture_index = 0;  ///< in Scene::textures
     texunit::SamplerState sampler;
-    int coordinates = 0;                          ///< in MaterialState::coordinates
+    int coordinates = 0;  ///< in MaterialState::coordinates
 };
 
 struct MaterialState {
     const Material* material = nullptr;
-    uint32_t index = 0;                           ///< in Scene::materials
+    uint32_t index = 0;  ///< in Scene::materials
     std::array<MapState, kMapSlots> maps;
     std::array<CoordinateState, kMapSlots> coordinates;
     int coordinate_count = 0;
@@ -44,14 +44,14 @@ struct DrawState {
     glm::mat4 world_from_object{1.0f};
     /// Takes object-space normals, geometric ones too, to the world's side of a front face; their length is lost.
     glm::mat3 world_from_normal{1.0f};
-    float handedness = 1.0f;                      ///< -1 when the transform mirrors
+    float handedness = 1.0f;  ///< -1 when the transform mirrors
 };
 
 /// What the caller's options change in every lookup.
 struct LookupOverrides {
     std::optional<texunit::Kernel> filter;
     std::optional<texunit::MipMode> mip;
-    bool occlusion = true;                        ///< false: nothing reads occlusion maps
+    bool occlusion = true;  ///< false: nothing reads occlusion maps
 };
 
 /// One draw per instance, in scene order.

@@ -74,7 +74,10 @@ class TbbExecutor final : public Executor {
         IndexQueue queue(count, body);
         const int workers = useful_workers(threads_, count);
         // One task per worker slot: TBB decides which thread serves a slot, and a slot is one thread's at a time.
-        arena_.execute([&] { tbb::parallel_for(0, workers, [&](int worker) { queue.work(worker); }, tbb::simple_partitioner()); });
+        arena_.execute([&] {
+            tbb::parallel_for(
+                0, workers, [&](int worker) { queue.work(worker); }, tbb::simple_partitioner());
+        });
         queue.rethrow();
     }
 
@@ -94,7 +97,8 @@ class ThreadExecutor final : public Executor {
         IndexQueue queue(count, body);
         {
             std::vector<std::jthread> others;
-            for (int worker = 1; worker < useful_workers(threads_, count); ++worker) others.emplace_back([&queue, worker] { queue.work(worker); });
+            for (int worker = 1; worker < useful_workers(threads_, count); ++worker)
+                others.emplace_back([&queue, worker] { queue.work(worker); });
             queue.work(0);
         }
         queue.rethrow();

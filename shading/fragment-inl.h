@@ -15,7 +15,8 @@ namespace HWY_NAMESPACE {
 
 /// Position and normals.
 template <class Corners>
-HWY_INLINE void interpolate_geometry(const DrawState& draw, const Corners& corners, const raster::BarycentricWave& weights, FragmentWave& out) {
+HWY_INLINE void interpolate_geometry(const DrawState& draw, const Corners& corners, const raster::BarycentricWave& weights,
+                                     FragmentWave& out) {
     const FloatLanes d;
     const Mesh& mesh = *draw.mesh;
     const glm::mat3 linear(draw.world_from_object);
@@ -26,7 +27,8 @@ HWY_INLINE void interpolate_geometry(const DrawState& draw, const Corners& corne
     for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) {
         const CornerWeights w = load_weights(weights, i);
         const SpaceVector p0 = corner_vector<3>(corners, 0, positions, i);
-        const SpaceVector e1 = sub(corner_vector<3>(corners, 1, positions, i), p0), e2 = sub(corner_vector<3>(corners, 2, positions, i), p0);
+        const SpaceVector e1 = sub(corner_vector<3>(corners, 1, positions, i), p0),
+                          e2 = sub(corner_vector<3>(corners, 2, positions, i), p0);
         const SpaceVector position = add(p0, add(scale(e1, w.b1), scale(e2, w.b2)));
         store3(d, add(transform(linear, position), set3(d, origin)), out.position, i);
         const SpaceVector geometric = unit_or(transform(draw.world_from_normal, cross(e1, e2)), nowhere);
@@ -42,7 +44,8 @@ HWY_INLINE void interpolate_geometry(const DrawState& draw, const Corners& corne
 
 /// Tangents of the mesh. A mirroring transform turns the bitangent, which goes along with the object, against cross(normal, tangent).
 template <class Corners>
-HWY_INLINE void interpolate_tangents(const DrawState& draw, const Corners& corners, const raster::BarycentricWave& weights, FragmentWave& out) {
+HWY_INLINE void interpolate_tangents(const DrawState& draw, const Corners& corners, const raster::BarycentricWave& weights,
+                                     FragmentWave& out) {
     const FloatLanes d;
     const glm::mat3 linear(draw.world_from_object);
     const float* tangents = &draw.mesh->tangents[0].x;
@@ -65,7 +68,8 @@ HWY_INLINE void derive_tangents(const DrawState& draw, const CoordinateState& st
     const SpaceVector none = set3(d, glm::vec3(0.0f));
     for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) {
         const SpaceVector p0 = corner_vector<3>(corners, 0, positions, i);
-        const SpaceVector e1 = sub(corner_vector<3>(corners, 1, positions, i), p0), e2 = sub(corner_vector<3>(corners, 2, positions, i), p0);
+        const SpaceVector e1 = sub(corner_vector<3>(corners, 1, positions, i), p0),
+                          e2 = sub(corner_vector<3>(corners, 2, positions, i), p0);
         CornerCoordinate u, v;
         corner_coordinates(state, *draw.mesh, corners, i, u, v);
         const auto du1 = hn::Sub(u.f1, u.f0), du2 = hn::Sub(u.f2, u.f0), dv1 = hn::Sub(v.f1, v.f0), dv2 = hn::Sub(v.f2, v.f0);
@@ -82,7 +86,8 @@ HWY_INLINE void derive_tangents(const DrawState& draw, const CoordinateState& st
 }
 
 template <class Corners>
-HWY_INLINE void interpolate_colors(const Mesh& mesh, const Corners& corners, const raster::BarycentricWave& weights, texunit::WaveColor& out) {
+HWY_INLINE void interpolate_colors(const Mesh& mesh, const Corners& corners, const raster::BarycentricWave& weights,
+                                   texunit::WaveColor& out) {
     const FloatLanes d;
     const float* colors = &mesh.colors[0].x;
     for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) {
@@ -93,7 +98,8 @@ HWY_INLINE void interpolate_colors(const Mesh& mesh, const Corners& corners, con
 
 /// All that the draw's material reads. `out.facing` is the caller's.
 template <class Corners>
-HWY_INLINE void interpolate_fragment(const DrawState& draw, const Corners& corners, const raster::BarycentricWave& weights, FragmentWave& out) {
+HWY_INLINE void interpolate_fragment(const DrawState& draw, const Corners& corners, const raster::BarycentricWave& weights,
+                                     FragmentWave& out) {
     const MaterialState& material = *draw.material;
     const Mesh& mesh = *draw.mesh;
     interpolate_geometry(draw, corners, weights, out);

@@ -20,10 +20,10 @@ using FloatMask = hn::Mask<FloatLanes>;
 
 /// Lanes [i, i + Lanes) of a wave's mask.
 HWY_INLINE FloatMask wave_mask_lanes(texunit::WaveMask mask, size_t i) {
-    alignas(64) static constexpr uint32_t kLaneBit[32] = {
-        1u << 0,  1u << 1,  1u << 2,  1u << 3,  1u << 4,  1u << 5,  1u << 6,  1u << 7,  1u << 8,  1u << 9,  1u << 10,
-        1u << 11, 1u << 12, 1u << 13, 1u << 14, 1u << 15, 1u << 16, 1u << 17, 1u << 18, 1u << 19, 1u << 20, 1u << 21,
-        1u << 22, 1u << 23, 1u << 24, 1u << 25, 1u << 26, 1u << 27, 1u << 28, 1u << 29, 1u << 30, 1u << 31};
+    alignas(64) static constexpr uint32_t kLaneBit[32] = {1u << 0,  1u << 1,  1u << 2,  1u << 3,  1u << 4,  1u << 5,  1u << 6,  1u << 7,
+                                                          1u << 8,  1u << 9,  1u << 10, 1u << 11, 1u << 12, 1u << 13, 1u << 14, 1u << 15,
+                                                          1u << 16, 1u << 17, 1u << 18, 1u << 19, 1u << 20, 1u << 21, 1u << 22, 1u << 23,
+                                                          1u << 24, 1u << 25, 1u << 26, 1u << 27, 1u << 28, 1u << 29, 1u << 30, 1u << 31};
     const UintLanes du;
     return hn::RebindMask(FloatLanes(), hn::TestBit(hn::Set(du, mask), hn::Load(du, kLaneBit + i)));
 }
@@ -37,11 +37,13 @@ HWY_INLINE texunit::WaveMask wave_mask_bits(FloatMask lanes, size_t i) {
 
 HWY_INLINE void store_wave(const WaveFloat& value, texunit::WaveMask mask, WaveFloat& out) {
     const FloatLanes d;
-    for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) hn::BlendedStore(hn::Load(d, value.lane + i), wave_mask_lanes(mask, i), d, out.lane + i);
+    for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d))
+        hn::BlendedStore(hn::Load(d, value.lane + i), wave_mask_lanes(mask, i), d, out.lane + i);
 }
 HWY_INLINE void store_value(float value, texunit::WaveMask mask, WaveFloat& out) {
     const FloatLanes d;
-    for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) hn::BlendedStore(hn::Set(d, value), wave_mask_lanes(mask, i), d, out.lane + i);
+    for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d))
+        hn::BlendedStore(hn::Set(d, value), wave_mask_lanes(mask, i), d, out.lane + i);
 }
 
 /// A vector in space per lane.

@@ -17,8 +17,8 @@ namespace HWY_NAMESPACE {
 
 /// Where a worker's counts go; ignored by kernels that do not count.
 struct LookupCounts {
-    texunit::FetchCounts* textures = nullptr;      ///< per scene texture
-    texunit::Wave<uint32_t>* pixel = nullptr;      ///< texels requested by the wave's pixels
+    texunit::FetchCounts* textures = nullptr;  ///< per scene texture
+    texunit::Wave<uint32_t>* pixel = nullptr;  ///< texels requested by the wave's pixels
 };
 
 /// One map. Not inlined: the sampler is large, and every map of every material shares this copy.

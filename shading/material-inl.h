@@ -71,8 +71,8 @@ HWY_INLINE void find_emission(const MaterialState& state, const texunit::WaveCol
 }
 
 /// The map's direction in the frame (tangent, bitangent, normal), its x and y scaled (glTF 2.0 3.9.3).
-HWY_INLINE SpaceVector mapped_normal(const FragmentWave& fragment, const texunit::WaveColor& texel, float normal_scale, const SpaceVector& normal,
-                                     size_t i) {
+HWY_INLINE SpaceVector mapped_normal(const FragmentWave& fragment, const texunit::WaveColor& texel, float normal_scale,
+                                     const SpaceVector& normal, size_t i) {
     const FloatLanes d;
     const auto two = hn::Set(d, 2.0f), one = hn::Set(d, 1.0f), strength = hn::Set(d, normal_scale);
     const SpaceVector code = load_rgb(texel, i);

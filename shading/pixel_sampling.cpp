@@ -12,7 +12,7 @@ namespace {
 constexpr std::array kFilterNames = {std::string_view("box"), std::string_view("tent"), std::string_view("gaussian")};
 constexpr std::array kJitterNames = {std::string_view("frame"), std::string_view("pixel")};
 
-constexpr double kGaussianSigma = 0.5;   // pixels
+constexpr double kGaussianSigma = 0.5;  // pixels
 
 /// Share of the filter's weight to the left of t, for t <= 0, pixels from the centre.
 double left_weight(PixelFilter filter, double t) {
@@ -55,12 +55,13 @@ class OffsetTable {
   private:
     static constexpr int kGuideShift = 22;
     int cells_;
-    std::vector<uint64_t> upper_;                            ///< cumulative weight in 2^-32 at each cell's right end
-    std::array<uint16_t, size_t(1) << (32 - kGuideShift)> first_{};   ///< cell of the first number with these leading bits
+    std::vector<uint64_t> upper_;                                    ///< cumulative weight in 2^-32 at each cell's right end
+    std::array<uint16_t, size_t(1) << (32 - kGuideShift)> first_{};  ///< cell of the first number with these leading bits
 };
 
 const OffsetTable& offset_table(PixelFilter filter) {
-    static const std::array<OffsetTable, 3> tables = {OffsetTable(PixelFilter::Box), OffsetTable(PixelFilter::Tent), OffsetTable(PixelFilter::Gaussian)};
+    static const std::array<OffsetTable, 3> tables = {OffsetTable(PixelFilter::Box), OffsetTable(PixelFilter::Tent),
+                                                      OffsetTable(PixelFilter::Gaussian)};
     return tables[size_t(filter)];
 }
 

@@ -50,7 +50,9 @@ struct Worker {
 /// The tiles that touch the visible pixels, row by row.
 struct TileRange {
     TileRange(const PixelRect& visible, int tile_size)
-        : x0(visible.x0 / tile_size), y0(visible.y0 / tile_size), columns((visible.x1 - 1) / tile_size + 1 - x0),
+        : x0(visible.x0 / tile_size),
+          y0(visible.y0 / tile_size),
+          columns((visible.x1 - 1) / tile_size + 1 - x0),
           rows((visible.y1 - 1) / tile_size + 1 - y0) {}
     int64_t count() const { return int64_t(columns) * rows; }
     int x(int64_t index) const { return x0 + int(index % columns); }
@@ -79,7 +81,8 @@ TileTotals render_tiles(const TileInputs& inputs, size_t texture_count, std::spa
 
 }  // namespace
 
-RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOptions& options, Executor& executor, const Progress& progress) {
+RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOptions& options, Executor& executor,
+                    const Progress& progress) {
     assert(options.width > 0 && options.height > 0 && options.spp > 0);
     const Clock::time_point start = Clock::now();
     const PixelRect visible = visible_pixels(options);

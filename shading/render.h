@@ -19,7 +19,7 @@
 namespace rawtexel::shading {
 
 struct Crop {
-    int x = 0, y = 0, width = 0, height = 0;      ///< pixels; zero extents: the whole frame
+    int x = 0, y = 0, width = 0, height = 0;  ///< pixels; zero extents: the whole frame
 };
 
 struct RenderOptions {
@@ -35,23 +35,23 @@ struct RenderOptions {
     /// Replace every map's own sampler; nullopt: what the scene says.
     std::optional<texunit::Kernel> filter;
     std::optional<texunit::MipMode> mip;
-    std::optional<glm::vec3> background;          ///< nullopt: the environment, black where there is none
+    std::optional<glm::vec3> background;  ///< nullopt: the environment, black where there is none
     std::vector<Aov> aovs;
-    bool count = false;                           ///< fill RenderResult::fetches
-    int tile_size = 64;                           ///< 32, 64 or 128
+    bool count = false;  ///< fill RenderResult::fetches
+    int tile_size = 64;  ///< 32, 64 or 128
 };
 
 struct RenderTimes {
-    double geometry_s = 0, raster_s = 0, shade_s = 0;   ///< raster and shade summed over threads
-    double frame_s = 0;                                 ///< wall
+    double geometry_s = 0, raster_s = 0, shade_s = 0;  ///< raster and shade summed over threads
+    double frame_s = 0;                                ///< wall
 };
 
 struct RenderResult {
-    Image radiance;                               ///< 3 channels, crop extents
-    std::vector<Layer> layers;                    ///< one per requested AOV, in order
+    Image radiance;             ///< 3 channels, crop extents
+    std::vector<Layer> layers;  ///< one per requested AOV, in order
     raster::FrameCounts geometry;
-    uint64_t samples_shaded = 0;                  ///< samples that saw a surface
-    std::vector<texunit::FetchCounts> fetches;    ///< per scene texture, when counted
+    uint64_t samples_shaded = 0;                ///< samples that saw a surface
+    std::vector<texunit::FetchCounts> fetches;  ///< per scene texture, when counted
     RenderTimes times;
 };
 

@@ -7,7 +7,7 @@
 namespace rawtexel::shading {
 namespace {
 
-constexpr int kShadowMapSize = 4096;   // texels; 64 MiB of depth
+constexpr int kShadowMapSize = 4096;  // texels; 64 MiB of depth
 constexpr int kShadowTileSize = 128;
 
 /// Clip coordinates of raster from the map's texels: x right, y down, depth kept.
@@ -56,7 +56,8 @@ Lighting resolve_lighting(const Scene& scene, std::vector<Light> lights, float a
     Lighting lighting{.lights = std::move(lights), .ambient = ambient, .environment = std::move(environment), .shadow = nullptr};
     if (!shadows) return lighting;
     // The light that casts shadows comes first; the others keep their order.
-    const auto sun = std::find_if(lighting.lights.begin(), lighting.lights.end(), [](const Light& light) { return light.type == Light::Type::Directional; });
+    const auto sun = std::find_if(lighting.lights.begin(), lighting.lights.end(),
+                                  [](const Light& light) { return light.type == Light::Type::Directional; });
     if (sun == lighting.lights.end()) return lighting;
     std::rotate(lighting.lights.begin(), sun, sun + 1);
     lighting.shadow = draw_shadow_map(scene, lighting.lights.front(), executor);

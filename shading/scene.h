@@ -20,22 +20,22 @@ namespace rawtexel::shading {
 struct Mesh {
     std::string name;
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;             ///< unit; empty: flat, from the triangle
-    std::vector<glm::vec4> tangents;            ///< xyz unit, w = sign of the bitangent; empty where no normal map needs them
-    std::array<std::vector<glm::vec2>, 2> uv;   ///< texture coordinate sets 0 and 1
-    std::vector<glm::vec4> colors;              ///< linear, multiplied with the base colour
-    std::vector<uint32_t> indices;              ///< 3 per triangle
+    std::vector<glm::vec3> normals;            ///< unit; empty: flat, from the triangle
+    std::vector<glm::vec4> tangents;           ///< xyz unit, w = sign of the bitangent; empty where no normal map needs them
+    std::array<std::vector<glm::vec2>, 2> uv;  ///< texture coordinate sets 0 and 1
+    std::vector<glm::vec4> colors;             ///< linear, multiplied with the base colour
+    std::vector<uint32_t> indices;             ///< 3 per triangle
     uint32_t material = 0;
 };
 
 struct Instance {
     uint32_t mesh = 0;
-    glm::mat4 world_from_object{1.0f};          ///< may mirror
+    glm::mat4 world_from_object{1.0f};  ///< may mirror
 };
 
 /// One texture lookup of a material.
 struct TextureMap {
-    int texture = -1;                           ///< index into Scene::textures; -1: the factor alone
+    int texture = -1;  ///< index into Scene::textures; -1: the factor alone
     texunit::SamplerState sampler;
     int uv_set = 0;
     /// KHR_texture_transform: (u', v') = uv_from_vertex * (u, v, 1).
@@ -50,14 +50,14 @@ enum class AlphaMode : uint8_t { Opaque, Mask, Blend };
 /// glTF 2.0 metallic-roughness material (3.9).
 struct Material {
     std::string name;
-    glm::vec4 base_color{1.0f};                 ///< linear
+    glm::vec4 base_color{1.0f};  ///< linear
     float metallic = 1.0f, roughness = 1.0f;
     float normal_scale = 1.0f, occlusion_strength = 1.0f;
-    glm::vec3 emission{0.0f};                   ///< factor times KHR_materials_emissive_strength
+    glm::vec3 emission{0.0f};  ///< factor times KHR_materials_emissive_strength
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
-    bool unlit = false;                         ///< KHR_materials_unlit: base colour is the radiance
+    bool unlit = false;  ///< KHR_materials_unlit: base colour is the radiance
     std::array<TextureMap, kMapSlots> maps;
 };
 
@@ -68,28 +68,28 @@ struct Light {
     Type type = Type::Directional;
     glm::vec3 color{1.0f};
     float intensity = 1.0f;
-    glm::vec3 position{0.0f};                   ///< world
-    glm::vec3 direction{0.0f, 0.0f, -1.0f};     ///< unit, the way the light travels
-    float range = 0.0f;                         ///< metres; 0: unlimited
-    float inner_cone = 0.0f, outer_cone = 0.785398163f;   ///< radians from the axis
+    glm::vec3 position{0.0f};                            ///< world
+    glm::vec3 direction{0.0f, 0.0f, -1.0f};              ///< unit, the way the light travels
+    float range = 0.0f;                                  ///< metres; 0: unlimited
+    float inner_cone = 0.0f, outer_cone = 0.785398163f;  ///< radians from the axis
 };
 
 struct Camera {
     enum class Type : uint8_t { Perspective, Orthographic };
     std::string name;
     Type type = Type::Perspective;
-    glm::mat4 world_from_camera{1.0f};          ///< looks along its -Z, +Y up; rigid
-    float vertical_fov = 0.785398163f;          ///< radians
-    float xmag = 1.0f, ymag = 1.0f;             ///< half extents, orthographic
-    float znear = 0.01f, zfar = 0.0f;           ///< zfar 0: unlimited (perspective only)
+    glm::mat4 world_from_camera{1.0f};  ///< looks along its -Z, +Y up; rigid
+    float vertical_fov = 0.785398163f;  ///< radians
+    float xmag = 1.0f, ymag = 1.0f;     ///< half extents, orthographic
+    float znear = 0.01f, zfar = 0.0f;   ///< zfar 0: unlimited (perspective only)
 };
 
 /// A texture and, where it came from a file, the file's own bytes for lossless export.
 struct SceneTexture {
     std::shared_ptr<texunit::Texture> texture;
     std::string image_name;
-    std::string mime_type;                      ///< "image/png", "image/jpeg", "image/ktx2", "image/vnd-ms.dds", …
-    bool srgb = false;                          ///< read as sRGB-encoded colour
+    std::string mime_type;  ///< "image/png", "image/jpeg", "image/ktx2", "image/vnd-ms.dds", …
+    bool srgb = false;      ///< read as sRGB-encoded colour
     /// The encoded image; null when the texture was generated and must be encoded anew.
     std::shared_ptr<const std::vector<std::byte>> encoded;
 };
@@ -100,21 +100,21 @@ enum class EnvironmentRequest : uint8_t { Unspecified, None, Sky };
 struct Bounds {
     glm::vec3 lower{0.0f}, upper{0.0f};
     glm::vec3 center() const { return 0.5f * (lower + upper); }
-    float radius() const { return 0.5f * glm::length(upper - lower); }   ///< of the sphere around the box
+    float radius() const { return 0.5f * glm::length(upper - lower); }  ///< of the sphere around the box
 };
 
 struct Scene {
     std::string name;
     std::vector<Mesh> meshes;
-    std::vector<Instance> instances;            ///< in scene order
-    std::vector<Material> materials;            ///< at least the one that every mesh names
+    std::vector<Instance> instances;  ///< in scene order
+    std::vector<Material> materials;  ///< at least the one that every mesh names
     std::vector<SceneTexture> textures;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
     EnvironmentRequest environment = EnvironmentRequest::Unspecified;
 
-    uint64_t triangle_count() const;            ///< over all instances
-    Bounds bounds() const;                      ///< of all instances in the world; zero when there is no geometry
+    uint64_t triangle_count() const;  ///< over all instances
+    Bounds bounds() const;            ///< of all instances in the world; zero when there is no geometry
 };
 
 }  // namespace rawtexel::shading

@@ -25,21 +25,27 @@ namespace HWY_NAMESPACE {
 
 /// A block of pixels at one sample.
 struct PixelWave {
-    int x = 0, y = 0;                 ///< upper left pixel, in the frame
-    size_t index = 0;                 ///< in the tile, row by row
-    WaveMask inside = 0;              ///< pixels that are to be rendered
+    int x = 0, y = 0;     ///< upper left pixel, in the frame
+    size_t index = 0;     ///< in the tile, row by row
+    WaveMask inside = 0;  ///< pixels that are to be rendered
     alignas(64) raster::SampleOffset offset[texunit::kWaveLanes];
     alignas(64) uint32_t setup_index[texunit::kWaveLanes];
     bool has_directions = false;
-    WaveVector direction;             ///< unit, from the eye through the sample points; found when first asked for
+    WaveVector direction;  ///< unit, from the eye through the sample points; found when first asked for
 };
 
 template <class Count>
 class TileRenderer {
   public:
     TileRenderer(const TileInputs& inputs, int tile_x, int tile_y, TileScratch& scratch)
-        : inputs_(inputs), frame_(*inputs.frame), scratch_(scratch), tile_x_(tile_x), tile_y_(tile_y), tile_size_(frame_.options().tile_size),
-          waves_x_(tile_size_ / texunit::kWaveWidth), coverage_(frame_, inputs.draws, inputs.visible, inputs.seed) {}
+        : inputs_(inputs),
+          frame_(*inputs.frame),
+          scratch_(scratch),
+          tile_x_(tile_x),
+          tile_y_(tile_y),
+          tile_size_(frame_.options().tile_size),
+          waves_x_(tile_size_ / texunit::kWaveWidth),
+          coverage_(frame_, inputs.draws, inputs.visible, inputs.seed) {}
 
     void render() {
         using Clock = std::chrono::steady_clock;
@@ -73,7 +79,8 @@ class TileRenderer {
         if (inputs_.pixel_jitter != PixelJitter::Pixel) return;
         for (int y = 0, i = 0; y < tile_size_; ++y)
             for (int x = 0; x < tile_size_; ++x, ++i)
-                scratch_.shifts[size_t(i)] = sequence_shift(inputs_.pixel_jitter, uint32_t(tile_x_ * tile_size_ + x), uint32_t(tile_y_ * tile_size_ + y), inputs_.seed);
+                scratch_.shifts[size_t(i)] = sequence_shift(inputs_.pixel_jitter, uint32_t(tile_x_ * tile_size_ + x),
+                                                            uint32_t(tile_y_ * tile_size_ + y), inputs_.seed);
     }
 
     void find_offsets(uint32_t sample) {
@@ -93,7 +100,8 @@ class TileRenderer {
         if constexpr (Count::kCounts) std::fill(scratch_.texels.begin(), scratch_.texels.end(), texunit::Wave<uint32_t>{});
         coverage_.begin_sample(sample);
         const auto cover = [this](const raster::CandidateWave& candidate) HWY_ATTR {
-            const auto texels_of = [this](int x, int y) HWY_ATTR { return &scratch_.texels[wave_at(x - tile_x_ * tile_size_, y - tile_y_ * tile_size_)]; };
+            const auto texels_of = [this](int x, int y)
+                                       HWY_ATTR { return &scratch_.texels[wave_at(x - tile_x_ * tile_size_, y - tile_y_ * tile_size_)]; };
             return coverage_.cover(candidate, scratch_.totals.fetches.data(), texels_of);
         };
         raster::HWY_NAMESPACE::tile_visibility(frame_, tile_x_, tile_y_, samples, cover, scratch_.visibility);
@@ -170,7 +178,8 @@ class TileRenderer {
         for (int p = 3; p < inputs_.planes.count; ++p) plane(p, wave_.index) = {};
         if (!first_sample_) return;
         if (inputs_.planes.lod >= 0) first_sample_plane(inputs_.planes.lod, wave_.index) = {};
-        if (inputs_.planes.material >= 0) std::fill_n(first_sample_plane(inputs_.planes.material, wave_.index).lane, texunit::kWaveLanes, -1.0f);
+        if (inputs_.planes.material >= 0)
+            std::fill_n(first_sample_plane(inputs_.planes.material, wave_.index).lane, texunit::kWaveLanes, -1.0f);
     }
 
     /// One masked pass per draw that the wave sees.
@@ -244,7 +253,8 @@ class TileRenderer {
         find_directions();
         const FloatLanes d;
         const auto minus = hn::Set(d, -1.0f);
-        for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) store3(d, scale(load3(d, wave_.direction, i), minus), surface_.view, i);
+        for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d))
+            store3(d, scale(load3(d, wave_.direction, i), minus), surface_.view, i);
     }
 
     void shade_background(WaveMask mask) {
@@ -287,7 +297,8 @@ class TileRenderer {
         for (WaveMask lanes = pass; lanes != 0; lanes &= lanes - 1) {
             const int lane = std::countr_zero(lanes);
             const uint32_t* vertex = &draw.mesh->indices[size_t(frame_.triangle(wave_.setup_index[lane]).primitive) * 3];
-            const glm::vec2 value = uv[vertex[0]] + (weights_.b1[lane] * (uv[vertex[1]] - uv[vertex[0]]) + weights_.b2[lane] * (uv[vertex[2]] - uv[vertex[0]]));
+            const glm::vec2 value =
+                uv[vertex[0]] + (weights_.b1[lane] * (uv[vertex[1]] - uv[vertex[0]]) + weights_.b2[lane] * (uv[vertex[2]] - uv[vertex[0]]));
             plane(inputs_.planes.uv, wave_.index)[lane] = value.x;
             plane(inputs_.planes.uv + 1, wave_.index)[lane] = value.y;
         }

@@ -16,7 +16,8 @@ void render_tile_counted(const TileInputs& inputs, int tile_x, int tile_y, TileS
     TileRenderer<texunit::FetchCounter>(inputs, tile_x, tile_y, scratch).render();
 }
 
-void draw_shadow_tile_lanes(const raster::Frame& frame, std::span<const DrawState> draws, int tile_x, int tile_y, raster::TileVisibility& out) {
+void draw_shadow_tile_lanes(const raster::Frame& frame, std::span<const DrawState> draws, int tile_x, int tile_y,
+                            raster::TileVisibility& out) {
     const raster::FrameOptions& options = frame.options();
     AlphaCoverage<texunit::NoFetchCount> coverage(frame, draws, {0, 0, options.width, options.height}, 0);
     const auto nothing_counted = [](int, int) HWY_ATTR -> texunit::Wave<uint32_t>* { return nullptr; };

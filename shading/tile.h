@@ -24,13 +24,13 @@ struct TileInputs {
     std::span<const DrawState> draws;
     const Lighting* lighting = nullptr;
     ViewRays rays;
-    PixelRect visible;                          ///< nothing outside is shaded, tested for coverage or counted
+    PixelRect visible;  ///< nothing outside is shaded, tested for coverage or counted
     uint32_t first_sample = 0;
     int spp = 1;
     PixelFilter pixel_filter = PixelFilter::Box;
     PixelJitter pixel_jitter = PixelJitter::Frame;
     uint32_t seed = 0;
-    std::optional<glm::vec3> background;        ///< nullopt: the environment, black where there is none
+    std::optional<glm::vec3> background;  ///< nullopt: the environment, black where there is none
     TilePlanes planes;
     bool count = false;
 };
@@ -50,12 +50,12 @@ struct TileScratch {
     explicit TileScratch(const TileInputs& inputs, size_t texture_count);
 
     raster::TileVisibility visibility;
-    std::vector<SequenceShift> shifts;               ///< per pixel of the tile; empty for PixelJitter::Frame
-    std::vector<raster::SampleOffset> offsets;       ///< likewise, of the sample at hand
+    std::vector<SequenceShift> shifts;          ///< per pixel of the tile; empty for PixelJitter::Frame
+    std::vector<raster::SampleOffset> offsets;  ///< likewise, of the sample at hand
     /// Planes of the sample at hand: wave w of the tile (row by row) of plane p is entry p*waves + w.
     std::vector<texunit::WaveFloat> sample;
-    std::vector<texunit::WaveFloat> first_sample;    ///< planes that show the first sample alone
-    std::vector<texunit::Wave<uint32_t>> texels;     ///< texels requested in the sample at hand, per wave
+    std::vector<texunit::WaveFloat> first_sample;  ///< planes that show the first sample alone
+    std::vector<texunit::Wave<uint32_t>> texels;   ///< texels requested in the sample at hand, per wave
     SampleTree sums;
     TileTotals totals;
 };

@@ -11,16 +11,16 @@ namespace rawtexel::shading {
 struct TilePlanes {
     explicit TilePlanes(std::span<const Aov> aovs = {});
 
-    static constexpr int kRadiance = 0;   ///< three planes
-    int count = 3;                        ///< of the planes that are summed
-    int hits = -1;                        ///< 1 where the sample saw a surface
+    static constexpr int kRadiance = 0;  ///< three planes
+    int count = 3;                       ///< of the planes that are summed
+    int hits = -1;                       ///< 1 where the sample saw a surface
     int depth = -1;
-    int normal = -1;                      ///< three planes
-    int albedo = -1;                      ///< three planes
-    int uv = -1;                          ///< two planes
+    int normal = -1;  ///< three planes
+    int albedo = -1;  ///< three planes
+    int uv = -1;      ///< two planes
     int texels = -1;
 
-    int first_sample_count = 0;           ///< of the planes that show the first sample
+    int first_sample_count = 0;  ///< of the planes that show the first sample
     int lod = -1, material = -1;
 };
 

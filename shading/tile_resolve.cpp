@@ -33,13 +33,17 @@ Layer make_layer(Aov aov, int width, int height) {
 }
 
 TileResolver::TileResolver(const TileInputs& inputs)
-    : inputs_(inputs), tile_size_(inputs.frame->options().tile_size), pixels_(size_t(tile_size_) * size_t(tile_size_)), values_(3 * pixels_) {
+    : inputs_(inputs),
+      tile_size_(inputs.frame->options().tile_size),
+      pixels_(size_t(tile_size_) * size_t(tile_size_)),
+      values_(3 * pixels_) {
     if (inputs.planes.hits < 0) return;
     sums_.resize(pixels_);
     hits_.resize(pixels_);
 }
 
-void TileResolver::resolve(int tile_x, int tile_y, const TileScratch& tile, std::span<const Aov> aovs, Image& radiance, std::span<Layer> layers) {
+void TileResolver::resolve(int tile_x, int tile_y, const TileScratch& tile, std::span<const Aov> aovs, Image& radiance,
+                           std::span<Layer> layers) {
     origin_x_ = tile_x * tile_size_;
     origin_y_ = tile_y * tile_size_;
     const PixelRect& visible = inputs_.visible;

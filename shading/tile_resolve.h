@@ -33,10 +33,10 @@ class TileResolver {
 
     const TileInputs& inputs_;
     int tile_size_;
-    size_t pixels_;               ///< of a tile
-    PixelRect rect_;              ///< of the tile at hand that is visible
+    size_t pixels_;   ///< of a tile
+    PixelRect rect_;  ///< of the tile at hand that is visible
     int origin_x_ = 0, origin_y_ = 0;
-    std::vector<float> values_;   ///< of up to three planes, in the order of waves
+    std::vector<float> values_;  ///< of up to three planes, in the order of waves
     std::vector<double> sums_, hits_;
 };
 

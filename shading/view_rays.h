@@ -11,7 +11,7 @@ namespace rawtexel::shading {
 struct ViewRays {
     glm::vec3 corner{0.0f}, right{0.0f}, down{0.0f};
     glm::vec3 eye{0.0f};
-    glm::vec3 forward{0.0f, 0.0f, -1.0f};   ///< unit, the view axis
+    glm::vec3 forward{0.0f, 0.0f, -1.0f};  ///< unit, the view axis
 };
 
 /// Rays of a frame of `width` x `height` pixels, consistent with clip_from_world. All parallel for an orthographic camera.

@@ -14,7 +14,9 @@ constexpr Bounds kBox{{-1.0f, 0.0f, 2.0f}, {3.0f, 1.0f, 8.0f}};
 glm::vec3 eye_of(const Camera& camera) { return glm::vec3(camera.world_from_camera[3]); }
 glm::vec3 forward_of(const Camera& camera) { return -glm::vec3(camera.world_from_camera[2]); }
 
-glm::vec4 projected(const Camera& camera, float aspect, const glm::vec3& world) { return clip_from_world(camera, aspect) * glm::vec4(world, 1.0f); }
+glm::vec4 projected(const Camera& camera, float aspect, const glm::vec3& world) {
+    return clip_from_world(camera, aspect) * glm::vec4(world, 1.0f);
+}
 
 void expect_near(const glm::vec3& a, const glm::vec3& b, float tolerance) {
     EXPECT_LT(glm::length(a - b), tolerance) << a.x << " " << a.y << " " << a.z << " against " << b.x << " " << b.y << " " << b.z;

@@ -92,7 +92,8 @@ TEST_F(CoverageTest, BlendsStacksOverPixels) {
             RenderOptions options;
             options.width = options.height = 256;
             for (options.seed = 0; options.seed < 4; ++options.seed) count_layers(render_with(scene, options), seen);
-            expect_shares(seen, stack_shares(alpha), 4 * 256 * 256, std::to_string(alpha.size()) + " layers" + (back_to_front ? ", back to front" : ""));
+            expect_shares(seen, stack_shares(alpha), 4 * 256 * 256,
+                          std::to_string(alpha.size()) + " layers" + (back_to_front ? ", back to front" : ""));
         }
     }
 }
@@ -156,7 +157,8 @@ TEST_F(CoverageTest, MixesTwoMaskLayersByTheirArea) {
         Material material;
         material.alpha_mode = AlphaMode::Mask;
         material.maps[kBaseColor].texture = texture;
-        material.maps[kBaseColor].sampler = {.magnify = texunit::Kernel::Nearest, .minify = texunit::Kernel::Nearest, .mip = texunit::MipMode::None};
+        material.maps[kBaseColor].sampler = {
+            .magnify = texunit::Kernel::Nearest, .minify = texunit::Kernel::Nearest, .mip = texunit::MipMode::None};
         return material;
     };
     Scene scene;

@@ -61,7 +61,8 @@ TEST_P(ExecutorTest, RethrowsTheSmallestIndexThatThrewAndStartsNoMore) {
             ++started;
             if (index < 50) return;
             int64_t seen = smallest;
-            while (index < seen && !smallest.compare_exchange_weak(seen, index)) {}
+            while (index < seen && !smallest.compare_exchange_weak(seen, index)) {
+            }
             throw std::runtime_error(std::to_string(index));
         });
         FAIL() << "nothing was thrown";
@@ -96,7 +97,7 @@ TEST_P(ExecutorTest, RunsOnSeveralThreadsAtOnce) {
 
 TEST_P(ExecutorTest, ServesRasterWithoutWorkerNumbers) {
     std::atomic<int64_t> sum{0};
-    parallel_for_of(*executor_)(101, [&](int64_t index) { sum += index; });
+    parallel_for_of (*executor_)(101, [&](int64_t index) { sum += index; });
     EXPECT_EQ(sum, 5050);
 }
 

@@ -213,7 +213,8 @@ TEST_F(MaterialTest, DerivesTheTangentsThatAMeshLacks) {
         add_object(scene, mesh, bumpy_material());
         const glm::vec3 derived = pixel(layer_of(scene, Aov::Normal), 10, 40);
         const float sign = mirrored_uv ? -1.0f : 1.0f;
-        EXPECT_LT(glm::length(derived - glm::normalize(glm::vec3(sign * 0.8f, 0.4f, 0.6f))), 1e-5f) << derived.x << " " << derived.y << " " << derived.z;
+        EXPECT_LT(glm::length(derived - glm::normalize(glm::vec3(sign * 0.8f, 0.4f, 0.6f))), 1e-5f)
+            << derived.x << " " << derived.y << " " << derived.z;
         scene.meshes[0].tangents.assign(4, glm::vec4(sign, 0, 0, sign));
         const glm::vec3 given = pixel(layer_of(scene, Aov::Normal), 10, 40);
         EXPECT_LT(glm::length(derived - given), 1e-6f);

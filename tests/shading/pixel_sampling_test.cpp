@@ -43,7 +43,8 @@ TEST(PixelSampling, NamesParseBack) {
 
 TEST(PixelSampling, StartsFramesAtTheCentre) {
     for (const PixelFilter filter : kFilters)
-        for (const uint32_t seed : {0u, 1u, 77u}) EXPECT_EQ(sample_offset(filter, PixelJitter::Frame, 0, 5, 9, seed), raster::SampleOffset{});
+        for (const uint32_t seed : {0u, 1u, 77u})
+            EXPECT_EQ(sample_offset(filter, PixelJitter::Frame, 0, 5, 9, seed), raster::SampleOffset{});
 }
 
 TEST(PixelSampling, LiesOnOddMultiplesWithinTheSupport) {
@@ -64,7 +65,8 @@ TEST(PixelSampling, LiesOnOddMultiplesWithinTheSupport) {
 TEST(PixelSampling, IsOneOffsetPerFrameAndOnePerPixel) {
     std::set<std::pair<int, int>> seen;
     for (uint32_t x = 0; x < 64; ++x) {
-        EXPECT_EQ(sample_offset(PixelFilter::Tent, PixelJitter::Frame, 9, x, 2 * x, 4), sample_offset(PixelFilter::Tent, PixelJitter::Frame, 9, 0, 0, 4));
+        EXPECT_EQ(sample_offset(PixelFilter::Tent, PixelJitter::Frame, 9, x, 2 * x, 4),
+                  sample_offset(PixelFilter::Tent, PixelJitter::Frame, 9, 0, 0, 4));
         const raster::SampleOffset at = sample_offset(PixelFilter::Tent, PixelJitter::Pixel, 9, x, 2 * x, 4);
         seen.insert({at.x, at.y});
     }
@@ -112,7 +114,8 @@ TEST(PixelSampling, FollowsTheFilter) {
 
 TEST(PixelSampling, CoversEveryCellOfTheBoxAlike) {
     std::vector<int> cells(256);
-    for (uint32_t sample = 1; sample <= 256 * 64; ++sample) ++cells[size_t(sample_offset(PixelFilter::Box, PixelJitter::Frame, sample, 0, 0, 0).x / 2)];
+    for (uint32_t sample = 1; sample <= 256 * 64; ++sample)
+        ++cells[size_t(sample_offset(PixelFilter::Box, PixelJitter::Frame, sample, 0, 0, 0).x / 2)];
     for (size_t k = 0; k < cells.size(); ++k) EXPECT_NEAR(cells[k], 64, 3) << "cell " << k;
 }
 

@@ -56,7 +56,8 @@ class RenderTest : public testing::Test {
     static void expect_same(const RenderResult& a, const RenderResult& b, const std::string& what) {
         EXPECT_TRUE(same_bits(a.radiance, b.radiance)) << what;
         ASSERT_EQ(a.layers.size(), b.layers.size()) << what;
-        for (size_t i = 0; i < a.layers.size(); ++i) EXPECT_TRUE(same_bits(a.layers[i].image, b.layers[i].image)) << a.layers[i].name << ", " << what;
+        for (size_t i = 0; i < a.layers.size(); ++i)
+            EXPECT_TRUE(same_bits(a.layers[i].image, b.layers[i].image)) << a.layers[i].name << ", " << what;
         EXPECT_EQ(a.samples_shaded, b.samples_shaded) << what;
         EXPECT_EQ(a.fetches, b.fetches) << what;
     }
@@ -79,7 +80,8 @@ TEST_F(RenderTest, GivesTheSameBitsForAnyThreadsAndTileSize) {
             for (const ExecutorKind kind : {ExecutorKind::Tbb, ExecutorKind::Threads})
                 for (const int threads : {1, 2, 3})
                     expect_same(render_with(options, kind, threads), expected,
-                                std::to_string(threads) + (kind == ExecutorKind::Tbb ? " TBB" : "") + " threads, tiles of " + std::to_string(tile_size));
+                                std::to_string(threads) + (kind == ExecutorKind::Tbb ? " TBB" : "") + " threads, tiles of " +
+                                    std::to_string(tile_size));
         }
     }
 }
@@ -95,7 +97,8 @@ TEST_F(RenderTest, GivesACropTheBitsOfThatPart) {
             const RenderResult part = render_with(options);
             EXPECT_TRUE(same_bits(part.radiance, cropped(whole.radiance, crop))) << crop.x << "," << crop.y;
             for (size_t i = 0; i < part.layers.size(); ++i)
-                EXPECT_TRUE(same_bits(part.layers[i].image, cropped(whole.layers[i].image, crop))) << part.layers[i].name << " " << crop.x << "," << crop.y;
+                EXPECT_TRUE(same_bits(part.layers[i].image, cropped(whole.layers[i].image, crop)))
+                    << part.layers[i].name << " " << crop.x << "," << crop.y;
         }
     }
 }
@@ -130,7 +133,7 @@ TEST_F(RenderTest, ChargesEveryTexelToItsPixel) {
     RenderOptions options = RenderTest::options();
     options.aovs = {Aov::Texels};
     options.count = true;
-    options.spp = 4;   // so that the means are exact
+    options.spp = 4;  // so that the means are exact
     const RenderResult result = render_with(options);
     const std::vector<float>& texels = result.layers[0].image.values;
     EXPECT_EQ(uint64_t(4.0 * std::accumulate(texels.begin(), texels.end(), 0.0)), total_texels(result));
@@ -225,7 +228,8 @@ TEST_F(RenderTest, FillsTheBackgroundAsAsked) {
     // Sample 0 lies at the pixel's centre.
     for (const glm::ivec2& at : {glm::ivec2(0, 0), glm::ivec2(35, 20), glm::ivec2(69, 7)}) {
         const float half_height = std::tan(0.5f * options.camera.vertical_fov), half_width = half_height * 70.0f / 40.0f;
-        const glm::vec3 along(half_width * ((float(at.x) + 0.5f) / 35.0f - 1.0f), half_height * (1.0f - (float(at.y) + 0.5f) / 20.0f), -1.0f);
+        const glm::vec3 along(half_width * ((float(at.x) + 0.5f) / 35.0f - 1.0f), half_height * (1.0f - (float(at.y) + 0.5f) / 20.0f),
+                              -1.0f);
         const glm::vec3 expected = lighting_.environment->radiance(glm::normalize(along));
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(sky.pixel(at.x, at.y)[c], expected[c], 2e-5f) << at.x << "," << at.y;
     }

@@ -26,7 +26,9 @@ SceneTexture make_texture(int width, int height, const std::function<glm::vec4(i
 
 SceneTexture make_noise_texture(int width, int height, uint32_t seed) {
     return make_texture(width, height, [seed](int x, int y) {
-        const auto number = [&](uint32_t channel) { return texunit::random_float({.x = uint32_t(x), .y = uint32_t(y), .sample = channel, .seed = seed}); };
+        const auto number = [&](uint32_t channel) {
+            return texunit::random_float({.x = uint32_t(x), .y = uint32_t(y), .sample = channel, .seed = seed});
+        };
         return glm::vec4(number(0), number(1), number(2), number(3));
     });
 }
@@ -45,7 +47,8 @@ Mesh make_sphere(int columns, int rows) {
     for (int row = 0; row <= rows; ++row) {
         for (int column = 0; column <= columns; ++column) {
             const float u = float(column) / float(columns), v = float(row) / float(rows);
-            const glm::vec3 p(std::sin(kPi * v) * std::sin(2.0f * kPi * u), std::cos(kPi * v), std::sin(kPi * v) * std::cos(2.0f * kPi * u));
+            const glm::vec3 p(std::sin(kPi * v) * std::sin(2.0f * kPi * u), std::cos(kPi * v),
+                              std::sin(kPi * v) * std::cos(2.0f * kPi * u));
             mesh.positions.push_back(p);
             mesh.normals.push_back(p);
             mesh.uv[0].push_back({u, v});

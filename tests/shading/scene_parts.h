@@ -30,7 +30,8 @@ Material unlit(const glm::vec4& color, AlphaMode mode = AlphaMode::Opaque);
 /// Looks along -Z at [-1, 1]^2, which fills the frame. Near plane at z = 10, far plane at -10.
 Camera square_camera();
 
-/// A bit of everything: a textured floor to the horizon, a normal-mapped sphere, a mirrored double-sided one, MASK and BLEND quads in front.
+/// A bit of everything: a textured floor to the horizon, a normal-mapped sphere, a mirrored double-sided one, MASK and BLEND quads in
+/// front.
 Scene make_busy_scene();
 Camera busy_camera();
 /// Its light, with a shadow map and an environment.

@@ -29,9 +29,10 @@ Difference compare(const Scene& scene, const RenderOptions& options) {
         for (int x = 0; x < options.width; ++x) {
             glm::dvec3 sum(0.0);
             for (int sample = 0; sample < options.spp; ++sample) {
-                const raster::SampleOffset at = sample_offset(options.pixel_filter, options.pixel_jitter, uint32_t(sample), uint32_t(x), uint32_t(y), options.seed);
-                sum += reference::unlit_radiance(scene, options.camera, options.width, options.height, x + double(at.x) / raster::kSampleOne,
-                                                 y + double(at.y) / raster::kSampleOne, background);
+                const raster::SampleOffset at =
+                    sample_offset(options.pixel_filter, options.pixel_jitter, uint32_t(sample), uint32_t(x), uint32_t(y), options.seed);
+                sum += reference::unlit_radiance(scene, options.camera, options.width, options.height,
+                                                 x + double(at.x) / raster::kSampleOne, y + double(at.y) / raster::kSampleOne, background);
             }
             for (int c = 0; c < 3; ++c) {
                 const double error = std::abs(sum[c] / options.spp - double(image.pixel(x, y)[c]));
@@ -76,7 +77,8 @@ TEST(UnlitRender, EqualsTheReferenceInPerspective) {
     options.camera = floor_camera();
     using texunit::Kernel, texunit::MipMode, texunit::Wrap;
     expect_close(make_floor({}), options, "trilinear, repeated");
-    expect_close(make_floor({.wrap_s = Wrap::MirroredRepeat, .wrap_t = Wrap::MirroredRepeat, .mip = MipMode::None}), options, "bilinear, mirrored");
+    expect_close(make_floor({.wrap_s = Wrap::MirroredRepeat, .wrap_t = Wrap::MirroredRepeat, .mip = MipMode::None}), options,
+                 "bilinear, mirrored");
     expect_close(make_floor({.wrap_s = Wrap::ClampToEdge, .wrap_t = Wrap::Repeat}), options, "trilinear, clamped across");
 }
 
@@ -107,8 +109,10 @@ TEST(UnlitRender, EqualsTheReferenceOnSilhouettes) {
         mesh.indices = {0, 1, 2};
         return mesh;
     };
-    add_object(scene, triangle({2.50390625f, 3.28515625f, 0}, {10.74609375f, 30.51171875f, 0}, {29.23828125f, 12.12890625f, 0}), unlit(glm::vec4(1.0f)));
-    add_object(scene, triangle({20.52734375f, 1.48828125f, 1}, {6.11328125f, 18.62109375f, 1}, {25.55078125f, 27.06640625f, 1}), unlit({0.5f, 1.5f, 1, 1}));
+    add_object(scene, triangle({2.50390625f, 3.28515625f, 0}, {10.74609375f, 30.51171875f, 0}, {29.23828125f, 12.12890625f, 0}),
+               unlit(glm::vec4(1.0f)));
+    add_object(scene, triangle({20.52734375f, 1.48828125f, 1}, {6.11328125f, 18.62109375f, 1}, {25.55078125f, 27.06640625f, 1}),
+               unlit({0.5f, 1.5f, 1, 1}));
     expect_close(scene, options, "two triangles");
 }
 

@@ -72,14 +72,17 @@ glm::dvec4 texel(texunit::Texture& texture, const texunit::SamplerState& sampler
     return {value[0], value[1], value[2], value[3]};
 }
 
-glm::dvec4 level_value(texunit::Texture& texture, const texunit::SamplerState& sampler, texunit::Kernel kernel, int level, const glm::dvec2& uv) {
+glm::dvec4 level_value(texunit::Texture& texture, const texunit::SamplerState& sampler, texunit::Kernel kernel, int level,
+                       const glm::dvec2& uv) {
     double x = uv.x * texunit::level_extent(texture.shape().width, level), y = uv.y * texunit::level_extent(texture.shape().height, level);
     if (kernel == texunit::Kernel::Nearest) return texel(texture, sampler, level, int64_t(std::floor(x)), int64_t(std::floor(y)));
     x -= 0.5;
     y -= 0.5;
     const auto x0 = int64_t(std::floor(x)), y0 = int64_t(std::floor(y));
     const double fx = x - double(x0), fy = y - double(y0);
-    const auto row = [&](int64_t j) { return (1.0 - fx) * texel(texture, sampler, level, x0, j) + fx * texel(texture, sampler, level, x0 + 1, j); };
+    const auto row = [&](int64_t j) {
+        return (1.0 - fx) * texel(texture, sampler, level, x0, j) + fx * texel(texture, sampler, level, x0 + 1, j);
+    };
     return (1.0 - fy) * row(y0) + fy * row(y0 + 1);
 }
 
@@ -89,7 +92,8 @@ double level_of_detail(const texunit::Texture& texture, const glm::dvec2& ddx, c
     return std::log2(std::max(glm::length(ddx * extent), glm::length(ddy * extent)));
 }
 
-glm::dvec4 sampled(texunit::Texture& texture, const texunit::SamplerState& sampler, const glm::dvec2& uv, const glm::dvec2& ddx, const glm::dvec2& ddy) {
+glm::dvec4 sampled(texunit::Texture& texture, const texunit::SamplerState& sampler, const glm::dvec2& uv, const glm::dvec2& ddx,
+                   const glm::dvec2& ddy) {
     const double lod = level_of_detail(texture, ddx, ddy);
     const texunit::Kernel kernel = lod <= 0.0 ? sampler.magnify : sampler.minify;
     const int last = texture.shape().levels - 1;
@@ -120,7 +124,8 @@ glm::dvec3 color_of(const Scene& scene, const Triangle& t, const Hit& hit, const
 
 }  // namespace
 
-glm::dvec3 unlit_radiance(const Scene& scene, const Camera& camera, int width, int height, double x, double y, const glm::dvec3& background) {
+glm::dvec3 unlit_radiance(const Scene& scene, const Camera& camera, int width, int height, double x, double y,
+                          const glm::dvec3& background) {
     constexpr double kStep = 1e-3;
     const Ray ray = camera_ray(camera, width, height, x, y);
     double nearest = std::numeric_limits<double>::infinity();
@@ -132,7 +137,8 @@ glm::dvec3 unlit_radiance(const Scene& scene, const Camera& camera, int width, i
         for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             Triangle t{{}, &mesh, &mesh.indices[i]};
             for (int k = 0; k < 3; ++k) t.p[k] = glm::dvec3(world_from_object * glm::dvec4(mesh.positions[t.vertex[k]], 1.0));
-            const double facing = glm::dot(glm::cross(t.p[1] - t.p[0], t.p[2] - t.p[0]), ray.direction) * glm::determinant(glm::dmat3(world_from_object));
+            const double facing =
+                glm::dot(glm::cross(t.p[1] - t.p[0], t.p[2] - t.p[0]), ray.direction) * glm::determinant(glm::dmat3(world_from_object));
             if (facing >= 0.0 && !scene.materials[mesh.material].double_sided) continue;
             const std::optional<Hit> hit = meet_plane(ray, t);
             if (!hit || hit->distance < double(camera.znear) || hit->distance >= nearest) continue;

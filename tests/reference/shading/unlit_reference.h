@@ -9,6 +9,7 @@ namespace rawtexel::shading::reference {
 
 /// What the sample point (x, y), in pixels from the frame's upper left corner, sees: base colour factor times texture times vertex colour
 /// of the nearest front face along its ray, or `background`. Kernel, mip mode and wraps are those of the map's sampler.
-glm::dvec3 unlit_radiance(const Scene& scene, const Camera& camera, int width, int height, double x, double y, const glm::dvec3& background);
+glm::dvec3 unlit_radiance(const Scene& scene, const Camera& camera, int width, int height, double x, double y,
+                          const glm::dvec3& background);
 
 }  // namespace rawtexel::shading::reference
