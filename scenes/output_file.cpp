@@ -2,7 +2,9 @@
 
 #include "scenes/image_io.h"
 
+#include <atomic>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
@@ -17,10 +19,17 @@ namespace {
     throw OutputError(path + ": " + what + " (" + std::strerror(error) + ")");
 }
 
+/// A name of its own beside `path`, not built from its last part, which may be as long as the system allows.
+std::string temporary_name(const std::string& path) {
+    static std::atomic<uint64_t> number{0};
+    const std::string name = ".rawtexel-" + std::to_string(::getpid()) + "-" + std::to_string(number++) + ".part";
+    return (std::filesystem::path(path).parent_path() / name).string();
+}
+
 /// A file under a temporary name that is removed unless it is published.
 class TemporaryFile {
   public:
-    explicit TemporaryFile(const std::string& path) : path_(path), temporary_(path + "." + std::to_string(::getpid()) + ".part") {
+    explicit TemporaryFile(const std::string& path) : path_(path), temporary_(temporary_name(path)) {
         file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file_ < 0) fail(path_, "cannot be written", errno);
     }

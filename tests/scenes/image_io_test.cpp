@@ -13,8 +13,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <sys/resource.h>
 #include <thread>
 #include <unistd.h>
 
@@ -399,6 +401,35 @@ TEST(WriteImage, ReadOnlyFoldersAreRefused) {
     EXPECT_THROW(write_8bit(folder.file("a.png"), 2, 2, 3, std::vector<uint8_t>(12), {}), OutputError);
     std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
     EXPECT_TRUE(folder.entries().empty());
+}
+
+TEST(WriteImage, AFileThatDoesNotFitLeavesTheOldOneAndNothingElse) {
+    TemporaryFolder folder;
+    folder.write("a.bin", "old");
+    // The limit on file sizes stands for a full disk.
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    const rlimit small{1000, before.rlim_max};
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+    std::string message;
+    try {
+        write_file(folder.file("a.bin"), std::vector<std::byte>(5000));
+    } catch (const OutputError& error) {
+        message = error.what();
+    }
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_TRUE(says(message, folder.file("a.bin") + ": cannot be written whole"));
+    EXPECT_EQ(folder.entries(), std::vector<std::string>{"a.bin"});
+    EXPECT_EQ(whole_file(folder.file("a.bin")), bytes_of("old"));
+}
+
+TEST(WriteImage, NamesAsLongAsTheSystemAllowsAreWritten) {
+    TemporaryFolder folder;
+    const std::string name = std::string(251, 'x') + ".bin";
+    write_file(folder.file(name), bytes_of("text"));
+    EXPECT_EQ(folder.entries(), std::vector<std::string>{name});
 }
 
 TEST(WriteImage, FilesAreReplacedWholeAndNothingElseIsLeft) {
