@@ -2,6 +2,7 @@
 #include "raster/clip.h"
 #include "tests/raster/drawing.h"
 #include "tests/reference/raster/exact_interpolation.h"
+#include "tests/stress_scale.h"
 
 #include <gtest/gtest.h>
 
@@ -180,7 +181,7 @@ glm::mat4 random_rotation(std::mt19937& random) {
 TEST(Clip, LeavesAClosedMeshClosedAroundACameraInsideIt) {
     std::mt19937 random(4);
     uint64_t clipped = 0;
-    for (int round = 0; round < 120; ++round) {
+    for (int round = 0; round < 120 * stress_scale(); ++round) {
         const float size = std::exp2(uniform(random, -2, 18));
         const glm::vec3 half = size * glm::vec3(uniform(random, 0.5f, 2), uniform(random, 0.5f, 2), uniform(random, 0.5f, 2));
         const Mesh mesh = box_mesh(random, half, 1 + int(random() % 12));
@@ -206,7 +207,7 @@ TEST(Clip, LeavesAClosedMeshClosedAroundACameraInsideIt) {
 TEST(Clip, SlicesAMeshAtTheNearPlaneWithoutHolesOrDoubleHits) {
     std::mt19937 random(5);
     uint64_t clipped = 0, covered = 0;
-    for (int round = 0; round < 60; ++round) {
+    for (int round = 0; round < 60 * stress_scale(); ++round) {
         // A floor that passes under the eye, a little deeper than the near plane or not even that.
         const float below = uniform(random, 0.01f, 2), near_plane = 0.5f, extent = 1000;
         const int n = 2 + int(random() % 30);

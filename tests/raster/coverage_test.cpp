@@ -1,6 +1,7 @@
 // Which sample points a triangle covers, held against 128-bit integers, and meshes without cracks or double hits.
 #include "tests/raster/drawing.h"
 #include "tests/reference/raster/exact_coverage.h"
+#include "tests/stress_scale.h"
 
 #include <gtest/gtest.h>
 
@@ -190,7 +191,7 @@ TEST(Coverage, OfAMeshIsExactlyOneAtEverySample) {
 
 TEST(Coverage, OfAFanAboutAPixelCentreIsExactlyOne) {
     std::mt19937 random(6);
-    for (int round = 0; round < 50; ++round) {
+    for (int round = 0; round < 50 * stress_scale(); ++round) {
         const int spokes = 3 + int(random() % 20);
         const glm::vec3 hub(8.5f, 8.5f, 0.5f);
         Mesh mesh;

@@ -2,6 +2,7 @@
 #include "tests/raster/drawing.h"
 #include "tests/raster/scenes.h"
 #include "tests/reference/raster/exact_visibility.h"
+#include "tests/stress_scale.h"
 
 #include <gtest/gtest.h>
 
@@ -101,7 +102,7 @@ TEST(Visibility, DoesNotDependOnTheOrderOfSubmission) {
 TEST(Visibility, GivesCoplanarCopiesToTheSmallestIdWhateverTheirVertexOrder) {
     std::mt19937 random(8);
     uint64_t covered = 0;
-    for (int round = 0; round < 300; ++round) {
+    for (int round = 0; round < 300 * stress_scale(); ++round) {
         // Large and steep, near plane and guard band included, so that depths have many bits to disagree in.
         const float size = std::exp2(uniform(random, -2, 12));
         const auto corner = [&] {

@@ -1,5 +1,6 @@
 // Damaged files: cut off anywhere, changed anywhere. They load or they are one clear error; nothing else may happen.
 #include "tests/scenes/gltf_fixture.h"
+#include "tests/stress_scale.h"
 
 #include "texunit/texel_source.h"
 
@@ -137,10 +138,10 @@ TEST(Hostile, FilesWithChangedBytesLoadOrAreRefused) {
     const std::vector<std::byte> file = rich_fixture().glb();
     std::mt19937 random(1);
     int loaded = 0;
-    constexpr int kFiles = 2500;
-    for (int i = 0; i < kFiles; ++i) loaded += survives(folder.write("changed.glb", mutated(file, random)));
-    EXPECT_GT(loaded, kFiles / 100);
-    EXPECT_LT(loaded, kFiles);
+    const int files = 2500 * stress_scale();
+    for (int i = 0; i < files; ++i) loaded += survives(folder.write("changed.glb", mutated(file, random)));
+    EXPECT_GT(loaded, files / 100);
+    EXPECT_LT(loaded, files);
 }
 
 TEST(Hostile, FilesWithChangedNumbersLoadOrAreRefused) {
@@ -149,14 +150,14 @@ TEST(Hostile, FilesWithChangedNumbersLoadOrAreRefused) {
     const nlohmann::json good = fixture.json;
     std::mt19937 random(2);
     int loaded = 0;
-    constexpr int kFiles = 2500;
-    for (int i = 0; i < kFiles; ++i) {
+    const int files = 2500 * stress_scale();
+    for (int i = 0; i < files; ++i) {
         fixture.json = good;
         for (int edits = 1 + int(random() % 2); edits > 0; --edits) fixture.json = with_other_number(fixture.json, random);
         loaded += survives(folder.write("changed.glb", fixture.glb()));
     }
-    EXPECT_GT(loaded, kFiles / 20);
-    EXPECT_LT(loaded, kFiles);
+    EXPECT_GT(loaded, files / 20);
+    EXPECT_LT(loaded, files);
 }
 
 std::vector<std::byte> whole_file(const std::filesystem::path& path) {

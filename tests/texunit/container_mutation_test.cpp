@@ -1,6 +1,7 @@
 // Damaged files: whatever the bytes, opening and decoding ends in texels or in a TextureError, with bounded memory.
 #include "tests/texunit/container_allocations.h"
 #include "tests/texunit/container_writer.h"
+#include "tests/stress_scale.h"
 
 #include "texunit/containers.h"
 
@@ -99,7 +100,7 @@ TEST(DamagedContainers, EndInTexelsOrInATextureErrorWithBoundedMemory) {
     std::mt19937_64 random(2024);
     int texels = 0, refused = 0;
     size_t worst = 0;
-    for (int i = 0; i < 12000; ++i) {
+    for (int i = 0; i < 12000 * stress_scale(); ++i) {
         Bytes bytes = originals[size_t(i) % originals.size()];
         mutate(bytes, random);
         const size_t file_bytes = bytes.size(), before = test_files::live_bytes();
@@ -112,7 +113,7 @@ TEST(DamagedContainers, EndInTexelsOrInATextureErrorWithBoundedMemory) {
         (survive(file, image_bytes) == Outcome::Texels ? texels : refused) += 1;
         const size_t used = test_files::peak_bytes() - before;
         worst = std::max(worst, used);
-        // The bound; what a zstd level inflates to is counted against its format and extents.
+        // What a zstd level inflates to is counted against its format and extents.
         ASSERT_LE(used, 2 * file_bytes + 2 * image_bytes + (1 << 20)) << "mutation " << i << " of a file of " << file_bytes << " bytes";
     }
     RecordProperty("texels", texels);
