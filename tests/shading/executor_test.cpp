@@ -1,5 +1,7 @@
 #include "shading/executor.h"
 
+#include "tests/shading/executor_kinds.h"
+
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -27,10 +29,15 @@ class ExecutorTest : public testing::TestWithParam<Setup> {
     std::unique_ptr<Executor> executor_ = make_executor(GetParam().kind, GetParam().threads);
 };
 
-INSTANTIATE_TEST_SUITE_P(Kinds, ExecutorTest,
-                         testing::Values(Setup{ExecutorKind::Tbb, 1}, Setup{ExecutorKind::Tbb, 2}, Setup{ExecutorKind::Tbb, 7},
-                                         Setup{ExecutorKind::Threads, 1}, Setup{ExecutorKind::Threads, 2}, Setup{ExecutorKind::Threads, 7}),
-                         name_of);
+std::vector<Setup> setups() {
+    std::vector<Setup> all;
+    for (const ExecutorKind kind : executor_kinds()) {
+        for (const int threads : {1, 2, 7}) all.push_back({kind, threads});
+    }
+    return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, ExecutorTest, testing::ValuesIn(setups()), name_of);
 
 TEST_P(ExecutorTest, RunsEveryIndexOnce) {
     for (const int64_t count : {0, 1, 2, 1000}) {

@@ -2,6 +2,7 @@
 
 #include "scene_parts.h"
 #include "shading/accumulation.h"
+#include "tests/shading/executor_kinds.h"
 #include "texunit/simd.h"
 
 #include <gtest/gtest.h>
@@ -77,7 +78,7 @@ TEST_F(RenderTest, GivesTheSameBitsForAnyThreadsAndTileSize) {
         EXPECT_GT(total_texels(expected), 0u);
         for (const int tile_size : {32, 64, 128}) {
             options.tile_size = tile_size;
-            for (const ExecutorKind kind : {ExecutorKind::Tbb, ExecutorKind::Threads})
+            for (const ExecutorKind kind : executor_kinds())
                 for (const int threads : {1, 2, 3})
                     expect_same(render_with(options, kind, threads), expected,
                                 std::to_string(threads) + (kind == ExecutorKind::Tbb ? " TBB" : "") + " threads, tiles of " +
@@ -274,7 +275,7 @@ TEST_F(RenderTest, TellsOfATextureThatProvesDamaged) {
         options.width = options.height = 256;
         options.tile_size = 32;
         options.camera = square_camera();
-        for (const ExecutorKind kind : {ExecutorKind::Tbb, ExecutorKind::Threads}) {
+        for (const ExecutorKind kind : executor_kinds()) {
             const std::unique_ptr<Executor> executor = make_executor(kind, 2);
             try {
                 render(scene, Lighting{}, options, *executor);
