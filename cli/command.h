@@ -11,9 +11,9 @@ namespace rawtexel::cli {
 
 /// How the program was called and where its words go.
 struct Invocation {
-    std::string command_line;        ///< everything, quoted for a shell: kept in metadata
-    std::ostream& out;               ///< results
-    std::ostream& err;               ///< warnings and progress
+    std::string command_line;  ///< everything, quoted for a shell: kept in metadata
+    std::ostream& out;         ///< results
+    std::ostream& err;         ///< warnings and progress
     bool err_is_terminal = false;
 };
 
@@ -25,10 +25,10 @@ class Command {
   public:
     virtual ~Command() = default;
     virtual std::string_view name() const = 0;
-    virtual std::string_view usage() const = 0;      ///< such as "render SCENE -o FILE [options]"
-    virtual std::string_view summary() const = 0;    ///< one sentence
-    virtual void declare(CommandLine& line) = 0;     ///< the options it takes, bound to its members
-    virtual int run(const Invocation& invocation) = 0;   ///< an ExitCode
+    virtual std::string_view usage() const = 0;         ///< such as "render SCENE -o FILE [options]"
+    virtual std::string_view summary() const = 0;       ///< one sentence
+    virtual void declare(CommandLine& line) = 0;        ///< the options it takes, bound to its members
+    virtual int run(const Invocation& invocation) = 0;  ///< an ExitCode
 };
 
 /// "rawtexel: warning: WHAT" on one line.

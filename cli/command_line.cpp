@@ -11,7 +11,7 @@
 namespace rawtexel::cli {
 namespace {
 
-constexpr size_t kHelpColumn = 34, kHelpWidth = 110;   // characters
+constexpr size_t kHelpColumn = 34, kHelpWidth = 110;  // characters
 
 bool looks_like_option(std::string_view word) { return word.size() > 1 && word[0] == '-'; }
 
@@ -22,7 +22,7 @@ std::string option_name(std::string_view word) { return std::string(word.substr(
 
 struct CommandLine::Impl {
     struct HelpEntry {
-        std::string heading;   ///< not empty: starts a group
+        std::string heading;  ///< not empty: starts a group
         std::string left, right;
     };
     struct Arguments {
@@ -55,7 +55,8 @@ std::vector<std::string> CommandLine::Impl::option_names() const {
 void CommandLine::Impl::check_for_repeats() const {
     for (const CLI::Option* option : app.get_options())
         if (option->get_items_expected_max() > 0 && option->results().size() > 1)
-            throw UsageError(option->get_name() + ": given more than once ('" + option->results()[0] + "' and '" + option->results()[1] + "')");
+            throw UsageError(option->get_name() + ": given more than once ('" + option->results()[0] + "' and '" + option->results()[1] +
+                             "')");
 }
 
 void CommandLine::Impl::throw_unknown_option(const std::string& word) const {
@@ -68,9 +69,12 @@ void CommandLine::Impl::take_remaining(const std::vector<std::string>& remaining
     std::vector<std::string> words;
     bool only_words = false;
     for (const std::string& word : remaining) {
-        if (!only_words && word == "--") only_words = true;
-        else if (!only_words && looks_like_option(word)) throw_unknown_option(word);
-        else words.push_back(word);
+        if (!only_words && word == "--")
+            only_words = true;
+        else if (!only_words && looks_like_option(word))
+            throw_unknown_option(word);
+        else
+            words.push_back(word);
     }
     const size_t most = arguments ? arguments->most : 0;
     if (words.size() > most) throw UsageError("unexpected argument '" + words[most] + "' (usage: rawtexel " + usage + ")");
@@ -137,14 +141,18 @@ std::string CommandLine::help() const {
     std::string text = "Usage: rawtexel " + impl_->usage + "\n\n" + wrap_text(impl_->summary, kHelpWidth, 0) + "\n";
     const auto add = [&](const std::string& left, const std::string& right) {
         std::string line = "  " + left;
-        if (line.size() + 2 > kHelpColumn) line += "\n" + std::string(kHelpColumn, ' ');
-        else line.resize(kHelpColumn, ' ');
+        if (line.size() + 2 > kHelpColumn)
+            line += "\n" + std::string(kHelpColumn, ' ');
+        else
+            line.resize(kHelpColumn, ' ');
         text += line + wrap_text(right, kHelpWidth - kHelpColumn, kHelpColumn) + "\n";
     };
     if (impl_->entries.empty() || impl_->entries.front().heading.empty()) text += "\n";
     for (const Impl::HelpEntry& entry : impl_->entries) {
-        if (!entry.heading.empty()) text += "\n" + entry.heading + ":\n";
-        else add(entry.left, entry.right);
+        if (!entry.heading.empty())
+            text += "\n" + entry.heading + ":\n";
+        else
+            add(entry.left, entry.right);
     }
     text += "\n";
     add("-h,--help", "this text");

@@ -11,7 +11,7 @@ namespace {
 
 // Extension with its dot, in lower case; empty when there is none.
 std::string extension_of(const std::string& path) {
-    const size_t name = path.find_last_of('/') + 1;   // npos + 1 is 0
+    const size_t name = path.find_last_of('/') + 1;  // npos + 1 is 0
     const size_t dot = path.find_last_of('.');
     if (dot == std::string::npos || dot <= name) return "";
     std::string extension = path.substr(dot);

@@ -61,7 +61,8 @@ std::vector<int64_t> parse_integers(std::string_view option, std::string_view te
         int64_t value = 0;
         if (!read_whole(word, value)) throw bad_value(option, text, std::string(form));
         if (value < lowest || value > highest)
-            throw bad_value(option, text, std::string(form) + " of numbers from " + std::to_string(lowest) + " to " + std::to_string(highest));
+            throw bad_value(option, text,
+                            std::string(form) + " of numbers from " + std::to_string(lowest) + " to " + std::to_string(highest));
         values.push_back(value);
     }
     return values;
@@ -104,8 +105,8 @@ std::string join(std::span<const std::string> words, std::string_view separator)
 }
 
 UsageError unknown_value(std::string_view option, std::string_view text, std::span<const std::string> names) {
-    return UsageError(std::string(option) + ": unknown value '" + std::string(text) + "', the nearest is '" + nearest_spelling(text, names) +
-                      "' (" + join(names, " ") + ")");
+    return UsageError(std::string(option) + ": unknown value '" + std::string(text) + "', the nearest is '" +
+                      nearest_spelling(text, names) + "' (" + join(names, " ") + ")");
 }
 
 size_t parse_word(std::string_view option, std::string_view text, std::initializer_list<std::string_view> names) {

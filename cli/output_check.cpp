@@ -22,7 +22,7 @@ void check_output(const std::string& path) {
     struct stat status {};
     const bool exists = stat(path.c_str(), &status) == 0;
     if (exists && S_ISDIR(status.st_mode)) throw_cannot_write(path, EISDIR);
-    if (exists && !S_ISREG(status.st_mode)) return;   // a device is written to, not replaced
+    if (exists && !S_ISREG(status.st_mode)) return;  // a device is written to, not replaced
     // Files are written beside their place and renamed: what matters is whether the folder takes a new file.
     const std::string probe = path + "." + std::to_string(getpid()) + ".probe";
     const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

@@ -75,9 +75,11 @@ std::optional<size_t> find_command_word(const Words& words, const Commands& comm
     const Words names = names_of(commands);
     const auto named = std::ranges::find_if(words, [](const std::string& word) { return !word.starts_with('-'); });
     if (named != words.end())
-        throw UsageError("unknown command '" + *named + "', the nearest is '" + nearest_spelling(*named, names) + "' (" + join(names, " ") + ")");
+        throw UsageError("unknown command '" + *named + "', the nearest is '" + nearest_spelling(*named, names) + "' (" + join(names, " ") +
+                         ")");
     if (words.empty()) throw UsageError("no command given; `rawtexel --help` lists them");
-    throw UsageError("unknown option '" + words[0] + "', the nearest is '" + nearest_spelling(words[0], Words{"--help", "--version"}) + "'");
+    throw UsageError("unknown option '" + words[0] + "', the nearest is '" + nearest_spelling(words[0], Words{"--help", "--version"}) +
+                     "'");
 }
 
 int dispatch(const Words& words, const Invocation& invocation) {
@@ -86,9 +88,12 @@ int dispatch(const Words& words, const Invocation& invocation) {
     const std::optional<size_t> at = find_command_word(words, commands, which);
     if (!at) {
         const auto given = [&](std::string_view word) { return std::ranges::find(words, word) != words.end(); };
-        if (given("--version")) invocation.out << "rawtexel " << version() << '\n';
-        else if (given("--help") || given("-h")) invocation.out << program_help(commands);
-        else throw_no_command(words, commands);
+        if (given("--version"))
+            invocation.out << "rawtexel " << version() << '\n';
+        else if (given("--help") || given("-h"))
+            invocation.out << program_help(commands);
+        else
+            throw_no_command(words, commands);
         return kDone;
     }
     Words rest = words;

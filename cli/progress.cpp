@@ -9,10 +9,10 @@
 namespace rawtexel::cli {
 namespace {
 
-constexpr double kQuietSeconds = 1.0;      // Auto says nothing before
+constexpr double kQuietSeconds = 1.0;  // Auto says nothing before
 constexpr double kRedrawSeconds = 0.1;
-constexpr double kLineSeconds = 1.0;       // Auto's lines are no closer
-constexpr int kBarWidth = 30;              // characters
+constexpr double kLineSeconds = 1.0;  // Auto's lines are no closer
+constexpr int kBarWidth = 30;         // characters
 constexpr const char* kEraseLine = "\r\033[K";
 
 }  // namespace
@@ -44,8 +44,10 @@ void ProgressReport::update(double share) {
     share_ = std::min(share, 1.0);
     const double elapsed = clock_() - start_;
     if (mode_ == ProgressMode::Auto && elapsed < kQuietSeconds) return;
-    if (terminal_) draw_bar(share_, elapsed);
-    else print_line(share_, elapsed);
+    if (terminal_)
+        draw_bar(share_, elapsed);
+    else
+        print_line(share_, elapsed);
 }
 
 void ProgressReport::finish() {
@@ -66,7 +68,8 @@ void ProgressReport::draw_bar(double share, double elapsed) {
     out_ << kEraseLine << '[' << std::string(size_t(filled), '#') << std::string(size_t(kBarWidth - filled), '.') << "] "
          << int(share * 100.0) << " %";
     if (elapsed > 0.0 && share > 0.0)
-        out_ << "  " << print_quantity(samples_ * share / elapsed) << "samples/s  " << print_duration(elapsed * (1.0 - share) / share) << " left";
+        out_ << "  " << print_quantity(samples_ * share / elapsed) << "samples/s  " << print_duration(elapsed * (1.0 - share) / share)
+             << " left";
     out_ << std::flush;
     bar_shown_ = true;
 }
@@ -87,10 +90,12 @@ double ProgressReport::steady_seconds() {
 }
 
 std::string print_duration(double seconds) {
-    const int64_t whole = int64_t(std::llround(std::clamp(seconds, 0.0, 359999.0)));   // 99:59:59
+    const int64_t whole = int64_t(std::llround(std::clamp(seconds, 0.0, 359999.0)));  // 99:59:59
     std::array<char, 32> text;
-    if (whole >= 3600) std::snprintf(text.data(), text.size(), "%d:%02d:%02d", int(whole / 3600), int(whole / 60 % 60), int(whole % 60));
-    else std::snprintf(text.data(), text.size(), "%d:%02d", int(whole / 60), int(whole % 60));
+    if (whole >= 3600)
+        std::snprintf(text.data(), text.size(), "%d:%02d:%02d", int(whole / 3600), int(whole / 60 % 60), int(whole % 60));
+    else
+        std::snprintf(text.data(), text.size(), "%d:%02d", int(whole / 60), int(whole % 60));
     return text.data();
 }
 

@@ -12,14 +12,14 @@ namespace rawtexel::cli {
 
 /// Auto shows nothing of a run that ends within a second; Always reports from the start; Never stays silent.
 enum class ProgressMode { Auto, Always, Never };
-std::string_view to_string(ProgressMode mode);   // auto always never
+std::string_view to_string(ProgressMode mode);  // auto always never
 
 /// A bar with rate and time left, redrawn in place, where `terminal`; elsewhere a plain line every ten percent
 /// (Auto: and at most one a second).
 /// The bar is gone from the screen when the report ends, by finish() or with the object.
 class ProgressReport {
   public:
-    using Clock = std::function<double()>;   ///< seconds, never going back
+    using Clock = std::function<double()>;  ///< seconds, never going back
 
     /// `samples`: what the whole run computes, for the rate.
     ProgressReport(std::ostream& out, ProgressMode mode, bool terminal, double samples, Clock clock = steady_seconds);
@@ -43,9 +43,9 @@ class ProgressReport {
     const double samples_;
     const Clock clock_;
     const double start_;
-    std::mutex mutex_;            // guards what follows and the stream
+    std::mutex mutex_;  // guards what follows and the stream
     double share_ = 0.0;
-    double last_drawn_ = 0.0;     // seconds
+    double last_drawn_ = 0.0;  // seconds
     int last_tenth_ = 0;
     bool bar_shown_ = false, lines_shown_ = false, finished_ = false;
 };

@@ -14,7 +14,7 @@ using shading::Aov;
 using texunit::Kernel;
 using texunit::MipMode;
 
-constexpr int kMaxImageExtent = 16384;   // pixels
+constexpr int kMaxImageExtent = 16384;  // pixels
 constexpr int kMaxSamples = 1 << 20;
 constexpr int kMaxThreads = 1024;
 
@@ -57,18 +57,23 @@ void declare_view_options(CommandLine& line, ViewOptions& view) {
 
 void declare_light_options(CommandLine& line, LightOptions& light) {
     line.group("Light");
-    line.option("--light", "X,Y,Z[,I]", "one directional light instead of the scene's: the way it travels, and its intensity in lux (default 3)",
+    line.option("--light", "X,Y,Z[,I]",
+                "one directional light instead of the scene's: the way it travels, and its intensity in lux (default 3)",
                 [&](const std::string& text) { light.light = parse_light(text); });
     line.option("--ambient", "A", "adds A x base colour x occlusion (default 0)",
                 [&](const std::string& text) { light.ambient = parse_number("--ambient", text, 0.0f); });
-    line.option("--shadows", "on|off", "of the first directional light (default on)",
-                [&](const std::string& text) { light.shadows = parse_word("--shadows", text, {"on", "off"}) == 0; });
-    line.option("--environment", "sky|none|FILE", "light from all around; FILE is a lat-long image (default: sky where the scene has no lights, else none)",
+    line.option("--shadows", "on|off", "of the first directional light (default on)", [&](const std::string& text) {
+        light.shadows = parse_word("--shadows", text, {"on", "off"}) == 0;
+    });
+    line.option("--environment", "sky|none|FILE",
+                "light from all around; FILE is a lat-long image (default: sky where the scene has no lights, else none)",
                 [&](const std::string& text) { light.environment = parse_environment(text); });
     line.option("--background", "environment|R,G,B", "what shows where nothing is, in linear radiance (default environment)",
                 [&](const std::string& text) { light.background = parse_background(text); });
-    line.flag("--peer-shading", "light as simple viewers draw it: the scene's directional light or --light -0.4,-1,-0.3,3, and --ambient 0.1 "
-                                "--shadows off --environment none --tonemap none; options beside it win", light.peer_shading);
+    line.flag("--peer-shading",
+              "light as simple viewers draw it: the scene's directional light or --light -0.4,-1,-0.3,3, and --ambient 0.1 "
+              "--shadows off --environment none --tonemap none; options beside it win",
+              light.peer_shading);
 }
 
 void declare_lookup_options(CommandLine& line, LookupOptions& lookup) {
@@ -85,12 +90,14 @@ void declare_sample_options(CommandLine& line, SampleOptions& samples) {
     line.group("Sampling");
     line.option("--spp", "N", "samples per pixel (default 1); sample n is the same whatever N",
                 [&](const std::string& text) { samples.spp = int(parse_integer("--spp", text, 1, kMaxSamples)); });
-    line.option("--pixel-filter", "box|tent|gaussian", "weight of a sample by its distance from the pixel's centre (default box)",
-                [&](const std::string& text) {
-                    using shading::PixelFilter;
-                    samples.pixel_filter = parse_choice("--pixel-filter", text, {PixelFilter::Box, PixelFilter::Tent, PixelFilter::Gaussian});
-                });
-    line.option("--pixel-jitter", "frame|pixel", "one offset per sample for all pixels, sample 0 at the centre (the default), or one per pixel",
+    line.option(
+        "--pixel-filter", "box|tent|gaussian", "weight of a sample by its distance from the pixel's centre (default box)",
+        [&](const std::string& text) {
+            using shading::PixelFilter;
+            samples.pixel_filter = parse_choice("--pixel-filter", text, {PixelFilter::Box, PixelFilter::Tent, PixelFilter::Gaussian});
+        });
+    line.option("--pixel-jitter", "frame|pixel",
+                "one offset per sample for all pixels, sample 0 at the centre (the default), or one per pixel",
                 [&](const std::string& text) {
                     using shading::PixelJitter;
                     samples.pixel_jitter = parse_choice("--pixel-jitter", text, {PixelJitter::Frame, PixelJitter::Pixel});
@@ -121,11 +128,13 @@ void declare_machine_options(CommandLine& line, MachineOptions& machine) {
         constexpr std::array kTileSizes{32, 64, 128};
         machine.tile_size = kTileSizes[parse_word("--tile-size", text, {"32", "64", "128"})];
     });
-    line.option("--simd", "auto|scalar|sse4|avx2|avx3", "the instruction set (default auto: the best there is)", [&](const std::string& text) {
-        using texunit::Simd;
-        machine.simd = parse_choice("--simd", text, {Simd::Auto, Simd::Scalar, Simd::Sse4, Simd::Avx2, Simd::Avx3});
-    });
-    line.option("--progress", "auto|always|never", "a bar on a terminal, percent lines elsewhere; auto shows it only when it takes a while (default auto)",
+    line.option("--simd", "auto|scalar|sse4|avx2|avx3", "the instruction set (default auto: the best there is)",
+                [&](const std::string& text) {
+                    using texunit::Simd;
+                    machine.simd = parse_choice("--simd", text, {Simd::Auto, Simd::Scalar, Simd::Sse4, Simd::Avx2, Simd::Avx3});
+                });
+    line.option("--progress", "auto|always|never",
+                "a bar on a terminal, percent lines elsewhere; auto shows it only when it takes a while (default auto)",
                 [&](const std::string& text) {
                     machine.progress = parse_choice("--progress", text, {ProgressMode::Auto, ProgressMode::Always, ProgressMode::Never});
                 });
@@ -231,7 +240,8 @@ std::string print(texunit::MipStorage storage) { return storage == texunit::MipS
 std::vector<Aov> parse_aovs(std::string_view text) {
     std::vector<Aov> aovs;
     for (const std::string& word : split(text, ',')) {
-        const Aov aov = parse_choice("--aov", word, {Aov::Depth, Aov::Normal, Aov::Albedo, Aov::Uv, Aov::Lod, Aov::Material, Aov::Texels, Aov::Spp});
+        const Aov aov =
+            parse_choice("--aov", word, {Aov::Depth, Aov::Normal, Aov::Albedo, Aov::Uv, Aov::Lod, Aov::Material, Aov::Texels, Aov::Spp});
         if (std::ranges::find(aovs, aov) != aovs.end()) throw UsageError("--aov: '" + word + "' is named twice");
         aovs.push_back(aov);
     }

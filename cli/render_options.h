@@ -20,28 +20,28 @@
 namespace rawtexel::cli {
 
 struct ImageSize {
-    int width = 1280, height = 720;   ///< pixels, 1..16384
+    int width = 1280, height = 720;  ///< pixels, 1..16384
     bool operator==(const ImageSize&) const = default;
 };
 
 struct Orbit {
-    float yaw = 0.0f, pitch = 0.0f;   ///< degrees
-    float zoom = 1.0f;                ///< above 0; 1: the scene just fits
+    float yaw = 0.0f, pitch = 0.0f;  ///< degrees
+    float zoom = 1.0f;               ///< above 0; 1: the scene just fits
     bool operator==(const Orbit&) const = default;
 };
 
 /// Unset members are what the scene says, or the default view.
 struct ViewOptions {
-    std::optional<std::string> camera;      ///< name or index
+    std::optional<std::string> camera;  ///< name or index
     std::optional<Orbit> orbit;
     std::optional<glm::vec3> eye, target;
-    std::optional<float> fov;               ///< vertical, degrees, between 0 and 180
+    std::optional<float> fov;  ///< vertical, degrees, between 0 and 180
 };
 
 /// A directional light.
 struct SunOption {
-    glm::vec3 direction{0.0f, -1.0f, 0.0f};   ///< the way the light travels, any length but 0
-    float intensity = 3.0f;                   ///< lux: 3 shows a white diffuse surface that faces it at 0.95
+    glm::vec3 direction{0.0f, -1.0f, 0.0f};  ///< the way the light travels, any length but 0
+    float intensity = 3.0f;                  ///< lux: 3 shows a white diffuse surface that faces it at 0.95
     bool operator==(const SunOption&) const = default;
 };
 
@@ -54,16 +54,16 @@ struct EnvironmentOption {
 };
 
 struct LightOptions {
-    std::optional<SunOption> light;                 ///< unset: the file's lights
-    std::optional<float> ambient;                   ///< unset: 0
-    std::optional<bool> shadows;                    ///< unset: on
-    std::optional<EnvironmentOption> environment;   ///< unset: the sky where the file has no lights
-    std::optional<glm::vec3> background;            ///< unset: the environment
+    std::optional<SunOption> light;                ///< unset: the file's lights
+    std::optional<float> ambient;                  ///< unset: 0
+    std::optional<bool> shadows;                   ///< unset: on
+    std::optional<EnvironmentOption> environment;  ///< unset: the sky where the file has no lights
+    std::optional<glm::vec3> background;           ///< unset: the environment
     bool peer_shading = false;
 };
 
 struct LookupOptions {
-    std::optional<texunit::Kernel> filter;          ///< unset: what the scene's samplers say
+    std::optional<texunit::Kernel> filter;  ///< unset: what the scene's samplers say
     std::optional<texunit::MipMode> mip;
     texunit::MipStorage mip_storage = texunit::MipStorage::Source;
 };
@@ -76,20 +76,20 @@ struct SampleOptions {
 };
 
 struct ToneOptions {
-    std::optional<float> exposure;                  ///< EV; unset: 0
-    std::optional<shading::ToneMap> tone_map;       ///< unset: ACES
-    std::optional<shading::Transfer> transfer;      ///< unset: sRGB
+    std::optional<float> exposure;              ///< EV; unset: 0
+    std::optional<shading::ToneMap> tone_map;   ///< unset: ACES
+    std::optional<shading::Transfer> transfer;  ///< unset: sRGB
 };
 
 struct MachineOptions {
-    int threads = 0;                                ///< 0: all cores
+    int threads = 0;  ///< 0: all cores
     int tile_size = 64;
     texunit::Simd simd = texunit::Simd::Auto;
     ProgressMode progress = ProgressMode::Auto;
 };
 
 struct RenderRequest {
-    std::optional<ImageSize> size;                  ///< unset: 1280x720
+    std::optional<ImageSize> size;  ///< unset: 1280x720
     shading::Crop crop;
     ViewOptions view;
     LightOptions light;
@@ -101,24 +101,24 @@ struct RenderRequest {
     ImageSize image_size() const { return size.value_or(ImageSize{}); }
 };
 
-ImageSize parse_size(std::string_view text);                    // 1280x720
+ImageSize parse_size(std::string_view text);  // 1280x720
 std::string print(const ImageSize& size);
-shading::Crop parse_crop(std::string_view text);                // X,Y,W,H
+shading::Crop parse_crop(std::string_view text);  // X,Y,W,H
 std::string print(const shading::Crop& crop);
-Orbit parse_orbit(std::string_view text);                       // YAW,PITCH[,ZOOM]
+Orbit parse_orbit(std::string_view text);  // YAW,PITCH[,ZOOM]
 std::string print(const Orbit& orbit);
-SunOption parse_light(std::string_view text);                   // X,Y,Z[,I]
+SunOption parse_light(std::string_view text);  // X,Y,Z[,I]
 std::string print(const SunOption& light);
-EnvironmentOption parse_environment(std::string_view text);     // sky none FILE
+EnvironmentOption parse_environment(std::string_view text);  // sky none FILE
 std::string print(const EnvironmentOption& environment);
-std::optional<glm::vec3> parse_background(std::string_view text);   // environment R,G,B
-std::optional<texunit::Kernel> parse_filter(std::string_view text);   // scene nearest bilinear
+std::optional<glm::vec3> parse_background(std::string_view text);    // environment R,G,B
+std::optional<texunit::Kernel> parse_filter(std::string_view text);  // scene nearest bilinear
 std::string print_filter(const std::optional<texunit::Kernel>& filter);
-std::optional<texunit::MipMode> parse_mip(std::string_view text);     // scene linear nearest none
+std::optional<texunit::MipMode> parse_mip(std::string_view text);  // scene linear nearest none
 std::string print_mip(const std::optional<texunit::MipMode>& mip);
-texunit::MipStorage parse_mip_storage(std::string_view text);   // source float
+texunit::MipStorage parse_mip_storage(std::string_view text);  // source float
 std::string print(texunit::MipStorage storage);
-std::vector<shading::Aov> parse_aovs(std::string_view text);    // depth,normal,…
+std::vector<shading::Aov> parse_aovs(std::string_view text);  // depth,normal,…
 
 /// Declares all options that set a RenderRequest.
 void declare_render_options(CommandLine& line, RenderRequest& request);

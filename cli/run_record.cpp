@@ -8,15 +8,18 @@ namespace {
 
 bool is_plain(const std::string& word) {
     constexpr std::string_view kPlain = "_-./,:=+@%";
-    return !word.empty() && std::ranges::all_of(word, [&](unsigned char c) { return std::isalnum(c) || kPlain.find(char(c)) != kPlain.npos; });
+    return !word.empty() &&
+           std::ranges::all_of(word, [&](unsigned char c) { return std::isalnum(c) || kPlain.find(char(c)) != kPlain.npos; });
 }
 
 // Inside single quotes a shell reads everything as it is, but for the quote itself.
 std::string quoted(const std::string& word) {
     std::string result = "'";
     for (const char c : word) {
-        if (c == '\'') result += "'\\''";
-        else result += c;
+        if (c == '\'')
+            result += "'\\''";
+        else
+            result += c;
     }
     return result + "'";
 }

@@ -12,18 +12,18 @@
 namespace rawtexel::cli {
 
 struct RunTimes {
-    std::vector<double> frame_s;   ///< wall seconds of each repeat, geometry to resolved image
-    double load_s = 0;             ///< scene, environment, shadow map
+    std::vector<double> frame_s;  ///< wall seconds of each repeat, geometry to resolved image
+    double load_s = 0;            ///< scene, environment, shadow map
     double write_s = 0, total_s = 0;
 };
 
 struct RunRecord {
-    std::string scene;             ///< as given
-    std::string command;           ///< the whole command, quoted for a shell
-    std::string view;              ///< the options that choose the same camera
+    std::string scene;    ///< as given
+    std::string command;  ///< the whole command, quoted for a shell
+    std::string view;     ///< the options that choose the same camera
     RenderRequest request;
-    shading::RenderResult result;  ///< of the first frame
-    std::vector<texunit::TextureWork> work;   ///< per scene texture, after the first frame
+    shading::RenderResult result;            ///< of the first frame
+    std::vector<texunit::TextureWork> work;  ///< per scene texture, after the first frame
     RunTimes times;
 };
 

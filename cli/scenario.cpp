@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 // Radiance that the ACES fit shows as white; enough for the others too.
 constexpr float kWhiteBackground = 32.0f;
 
-constexpr double kMaxLength = 1e15;   // metres: squares are finite
+constexpr double kMaxLength = 1e15;  // metres: squares are finite
 
 UsageError scenario_error(const std::string& key, const std::string& what) { return UsageError("--scenario: \"" + key + "\" " + what); }
 

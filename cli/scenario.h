@@ -9,10 +9,10 @@
 namespace rawtexel::cli {
 
 struct Scenario {
-    std::string name;            ///< for messages; may be empty
-    std::string model;           ///< path of the glTF
+    std::string name;   ///< for messages; may be empty
+    std::string model;  ///< path of the glTF
     std::string output_file;
-    std::string lighting;        ///< path of the lat-long image; empty: none is named
+    std::string lighting;  ///< path of the lat-long image; empty: none is named
     ImageSize size;
     glm::vec3 target{0.0f};
     float theta = 0.0f;          ///< degrees around +Y, from +Z towards +X

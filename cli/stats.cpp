@@ -55,7 +55,7 @@ constexpr std::array kCounters{
 uint64_t peak_resident_bytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    return uint64_t(usage.ru_maxrss) * 1024;   // Linux counts in KiB
+    return uint64_t(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
 double median(std::vector<double> values) {
@@ -78,7 +78,7 @@ Json frame_numbers(const std::vector<double>& frame_s) {
 
 Json time_numbers(const RunRecord& record) {
     const shading::RenderTimes& frame = record.result.times;
-    return {{"load", record.times.load_s}, {"geometry", frame.geometry_s},   {"raster", frame.raster_s},
+    return {{"load", record.times.load_s}, {"geometry", frame.geometry_s},  {"raster", frame.raster_s},
             {"shade", frame.shade_s},      {"write", record.times.write_s}, {"total", record.times.total_s}};
 }
 
@@ -138,12 +138,9 @@ Json texture_list(const RunRecord& record, const shading::Scene& scene) {
     Json list = Json::array();
     for (size_t i = 0; i < scene.textures.size(); ++i) {
         const texunit::Texture& texture = *scene.textures[i].texture;
-        Json json{{"name", texture.name()},
-                  {"format", texunit::info(texture.format()).name},
-                  {"width", texture.shape().width},
-                  {"height", texture.shape().height},
-                  {"levels", texture.shape().levels},
-                  {"blocks_total", texture.blocks_total()}};
+        Json json{{"name", texture.name()},           {"format", texunit::info(texture.format()).name},
+                  {"width", texture.shape().width},   {"height", texture.shape().height},
+                  {"levels", texture.shape().levels}, {"blocks_total", texture.blocks_total()}};
         if (i < record.result.fetches.size()) add_fetches(json, record.result.fetches[i], record.result.samples_shaded);
         json["performed"] = performed_numbers(record.work[i]);
         list.push_back(std::move(json));

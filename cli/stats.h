@@ -14,7 +14,7 @@ std::string stats_json(const RunRecord& record, const shading::Scene& scene);
 
 /// A counter of that file, for `rawtexel list counters`.
 struct CounterInfo {
-    std::string_view name;         ///< path of the key, such as "texture.taps"
+    std::string_view name;  ///< path of the key, such as "texture.taps"
     std::string_view description;
 };
 std::span<const CounterInfo> all_counters();

@@ -15,11 +15,11 @@ using shading::Bounds;
 using shading::Camera;
 using shading::Scene;
 
-constexpr float kDefaultFov = 45.0f;   // degrees, of default_camera and orbit_camera
+constexpr float kDefaultFov = 45.0f;  // degrees, of default_camera and orbit_camera
 
 struct LookAt {
     glm::vec3 eye, target;
-    float fov;   // degrees
+    float fov;  // degrees
 };
 
 std::string print_options(const LookAt& look) {
@@ -78,7 +78,7 @@ LookAt look_of(const Camera& camera, const Bounds& bounds) {
 
 // True when eye, target and field of view say all: perspective, and upright.
 bool is_upright_perspective(const Camera& camera) {
-    constexpr float kRollTolerance = 1e-4f;   // sine of the angle
+    constexpr float kRollTolerance = 1e-4f;  // sine of the angle
     const float right_y = camera.world_from_camera[0].y, up_y = camera.world_from_camera[1].y;
     return camera.type == Camera::Type::Perspective && std::abs(right_y) < kRollTolerance && up_y > kRollTolerance;
 }
@@ -98,8 +98,10 @@ View file_view(const Scene& scene, size_t index, const ViewOptions& options, con
 View choose_view(const Scene& scene, const ViewOptions& options, float aspect) {
     const Bounds bounds = scene.bounds();
     std::optional<size_t> file_camera;
-    if (options.camera) file_camera = find_camera(scene, *options.camera);
-    else if (!options.orbit && !scene.cameras.empty()) file_camera = 0;
+    if (options.camera)
+        file_camera = find_camera(scene, *options.camera);
+    else if (!options.orbit && !scene.cameras.empty())
+        file_camera = 0;
     const bool moved = options.eye || options.target;
     if (file_camera && !moved) return file_view(scene, *file_camera, options, bounds);
     if (options.orbit && !moved) {

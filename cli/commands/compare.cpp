@@ -27,7 +27,8 @@ struct Comparison {
     ImageError error;
 };
 
-// The colour channels as they show over black; further layers are left out. Float formats hold colour times alpha already, the others do not.
+// The colour channels as they show over black; further layers are left out. Float formats hold colour times alpha
+// already, the others do not.
 Image read_colour(const std::string& path) {
     const Image whole = scenes::read_image(path, /*srgb_integers=*/false);
     const int channels = whole.channels >= 3 ? 3 : 1;
@@ -134,14 +135,15 @@ class CompareCommand : public Command {
     std::string_view usage() const override { return "compare IMAGE REFERENCE [MORE...] [options]"; }
     std::string_view summary() const override {
         return "Measures how far images are from a reference: MSE, RMSE, PSNR (peak 1), relMSE, largest and mean difference of the colour "
-               "channels. Float images are compared as linear values, 8-bit images as display values from 0 to 1, shown over black where they "
-               "are transparent.";
+               "channels. Float images are compared as linear values, 8-bit images as display values from 0 to 1, shown over black "
+               "where they are transparent.";
     }
 
     void declare(CommandLine& line) override {
-        line.arguments("IMAGE REFERENCE [MORE...]", "two or more images of the same extents; all but the second are held against the second", 2,
-                       size_t(-1), words_);
-        line.option("-o,--output", "DIFF", "an image of the absolute differences of IMAGE", [this](const std::string& text) { output_ = text; });
+        line.arguments("IMAGE REFERENCE [MORE...]",
+                       "two or more images of the same extents; all but the second are held against the second", 2, size_t(-1), words_);
+        line.option("-o,--output", "DIFF", "an image of the absolute differences of IMAGE",
+                    [this](const std::string& text) { output_ = text; });
         line.flag("--json", "the figures as JSON instead of a table; infinite ones are null", json_);
         line.option("--csv", "FILE", "the figures as a comma-separated file", [this](const std::string& text) { csv_ = text; });
         line.option("--max-rmse", "X", "exit with 1 when the RMSE of any image is above X",

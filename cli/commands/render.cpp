@@ -30,7 +30,8 @@ void choose_instruction_set(texunit::Simd simd) {
     throw UsageError("--simd: " + std::string(to_string(simd)) + " is not available on this machine (" + join(available, " ") + ")");
 }
 
-shading::RenderOptions frame_options(const RenderRequest& request, const shading::Camera& camera, std::vector<shading::Aov> aovs, bool count) {
+shading::RenderOptions frame_options(const RenderRequest& request, const shading::Camera& camera, std::vector<shading::Aov> aovs,
+                                     bool count) {
     shading::RenderOptions options;
     options.width = request.image_size().width;
     options.height = request.image_size().height;
@@ -68,14 +69,15 @@ class RenderCommand : public Command {
     std::string_view name() const override { return "render"; }
     std::string_view usage() const override { return "render SCENE -o FILE [options]"; }
     std::string_view summary() const override {
-        return "Renders a scene to an image whose format follows the extension: .exr .hdr .pfm .tif hold linear radiance in floats; .png .jpg "
-               "and the like get exposure, tone map and transfer in 8 bits.";
+        return "Renders a scene to an image whose format follows the extension: .exr .hdr .pfm .tif hold linear radiance in floats; "
+               ".png .jpg and the like get exposure, tone map and transfer in 8 bits.";
     }
 
     void declare(CommandLine& line) override {
         line.arguments("SCENE", "a .gltf or .glb file, or a built-in scene (rawtexel list scenes)", 0, 1, words_);
         line.option("-o,--output", "FILE", "the image to write", [this](const std::string& text) { output_ = text; });
-        line.option("--scenario", "JSON", "scene, output, camera and environment as google/model-viewer's fidelity tools pass them; options beside it win",
+        line.option("--scenario", "JSON",
+                    "scene, output, camera and environment as google/model-viewer's fidelity tools pass them; options beside it win",
                     [this](const std::string& text) { scenario_ = parse_scenario(text); });
         declare_render_options(line, request_);
         line.group("More output");
@@ -92,8 +94,9 @@ class RenderCommand : public Command {
   private:
     void settle_words();
     void check_outputs(const Invocation& invocation) const;
-    shading::RenderResult render_frames(const shading::Scene& scene, const shading::Lighting& lighting, const shading::RenderOptions& options,
-                                        shading::Executor& executor, const Invocation& invocation, RunRecord& record) const;
+    shading::RenderResult render_frames(const shading::Scene& scene, const shading::Lighting& lighting,
+                                        const shading::RenderOptions& options, shading::Executor& executor, const Invocation& invocation,
+                                        RunRecord& record) const;
     void write_stats(const RunRecord& record, const shading::Scene& scene) const;
 
     std::vector<std::string> words_;
@@ -123,7 +126,8 @@ void RenderCommand::settle_words() {
 // Before a long render: the format is known, the places can be written.
 void RenderCommand::check_outputs(const Invocation& invocation) const {
     check_image_format("-o", output_);
-    if (!aovs_.empty() && !stores_layers(output_)) throw UsageError("--aov: '" + output_ + "' cannot hold layers, the format that can is '.exr'");
+    if (!aovs_.empty() && !stores_layers(output_))
+        throw UsageError("--aov: '" + output_ + "' cannot hold layers, the format that can is '.exr'");
     const ToneOptions& tone = request_.tone;
     const bool tone_asked = tone.exposure || tone.transfer || (tone.tone_map && !request_.light.peer_shading);
     if (tone_asked && scenes::is_float_format(output_))
@@ -139,8 +143,8 @@ shading::RenderResult RenderCommand::render_frames(const shading::Scene& scene, 
     ProgressReport progress(invocation.err, request_.machine.progress, invocation.err_is_terminal, sample_count(options) * repeats_);
     shading::RenderResult first;
     for (int repeat = 0; repeat < repeats_; ++repeat) {
-        shading::RenderResult result = shading::render(scene, lighting, options, executor,
-                                                       [&](double share) { progress.update((repeat + share) / repeats_); });
+        shading::RenderResult result =
+            shading::render(scene, lighting, options, executor, [&](double share) { progress.update((repeat + share) / repeats_); });
         record.times.frame_s.push_back(result.times.frame_s);
         if (repeat > 0) continue;
         record.work = texture_work(scene);

@@ -10,7 +10,7 @@ namespace {
 
 // relMSE's guard against division by dark reference values.
 constexpr double kRelativeFloor = 0.01;
-constexpr size_t kLeaf = 256;   // values summed one after the other
+constexpr size_t kLeaf = 256;  // values summed one after the other
 
 struct ErrorSums {
     double square = 0, relative = 0, absolute = 0, max = 0;

@@ -94,8 +94,17 @@ TEST(CommandLine, TooFewAndTooManyWordsShowTheUsage) {
 TEST(CommandLine, AFlagTakesNoValue) { EXPECT_NE(Sample().error({"a", "--count=maybe"}), ""); }
 
 TEST(CommandLine, NoErrorHasTwoLinesOrNamesTheLibrary) {
-    const std::vector<std::vector<std::string>> wrong{{}, {"--size"}, {"-"}, {"--"}, {"-o"}, {"a", "---"}, {"a", "--="}, {"a", "-o", "x", "-o", "y"},
-                                                      {"a", "b", "c"}, {"a", "--count=7"}, {"a", "-zzz"}};
+    const std::vector<std::vector<std::string>> wrong{{},
+                                                      {"--size"},
+                                                      {"-"},
+                                                      {"--"},
+                                                      {"-o"},
+                                                      {"a", "---"},
+                                                      {"a", "--="},
+                                                      {"a", "-o", "x", "-o", "y"},
+                                                      {"a", "b", "c"},
+                                                      {"a", "--count=7"},
+                                                      {"a", "-zzz"}};
     for (const auto& given : wrong) {
         const std::string error = Sample().error(given);
         EXPECT_EQ(error.find('\n'), std::string::npos) << error;
@@ -109,8 +118,8 @@ TEST(CommandLine, HelpNamesEverythingAndChecksNothing) {
         EXPECT_FALSE(sample.line.parse({"--wrong", word}));
     }
     const std::string help = Sample().line.help();
-    for (const char* part : {"Usage: rawtexel sample SCENE [MORE] -o FILE", "A command to test with.", "SCENE", "what to draw", "-o,--output FILE",
-                             "where to", "Image:", "--size WxH", "how large", "--count", "count things", "-h,--help"})
+    for (const char* part : {"Usage: rawtexel sample SCENE [MORE] -o FILE", "A command to test with.", "SCENE", "what to draw",
+                             "-o,--output FILE", "where to", "Image:", "--size WxH", "how large", "--count", "count things", "-h,--help"})
         EXPECT_NE(help.find(part), std::string::npos) << part << "\n" << help;
 }
 

@@ -137,7 +137,8 @@ TEST(Compare, WritesCsvWithAHeader) {
     ASSERT_EQ(run({"compare", folder / "a,b.png", folder / "b.png", "--csv", folder / "x.csv"}).code, kDone);
     const std::string csv = test::read_file(folder / "x.csv");
     EXPECT_TRUE(csv.starts_with("image,reference,mse,rmse,psnr,relmse,max,mean\n\"" + folder / "a,b.png" + "\"," + folder / "b.png" +
-                                ",1,1,0,0.990099009900")) << csv;
+                                ",1,1,0,0.990099009900"))
+        << csv;
     EXPECT_TRUE(csv.ends_with(",1,1\n")) << csv;
 }
 

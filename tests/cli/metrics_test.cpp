@@ -44,7 +44,7 @@ TEST(Metrics, OfKnownImages) {
     EXPECT_NEAR(error.mse, 0.01, 1e-9);
     EXPECT_NEAR(error.rmse, 0.1, 1e-8);
     EXPECT_NEAR(error.psnr, 20.0, 1e-6);
-    EXPECT_NEAR(error.rel_mse, 1.0, 1e-7);   // 0.01 over the floor of 0.01
+    EXPECT_NEAR(error.rel_mse, 1.0, 1e-7);  // 0.01 over the floor of 0.01
     EXPECT_NEAR(error.max, 0.1, 1e-8);
 }
 
@@ -62,7 +62,8 @@ TEST(Metrics, OneValueThatIsNoNumberSpoilsEveryFigure) {
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         values[700] = bad;
         for (const ImageError& error : {image_error(values, truth), image_error(truth, values)})
-            for (const double figure : {error.mse, error.rmse, error.rel_mse, error.psnr, error.max, error.mean}) EXPECT_TRUE(std::isnan(figure));
+            for (const double figure : {error.mse, error.rmse, error.rel_mse, error.psnr, error.max, error.mean})
+                EXPECT_TRUE(std::isnan(figure));
     }
 }
 

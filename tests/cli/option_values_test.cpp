@@ -43,7 +43,8 @@ TEST(OptionValues, RangesIncludeTheirEnds) {
 TEST(OptionValues, ListsHaveTheirLength) {
     EXPECT_EQ(parse_numbers("--x", "1,2", "A,B[,C]", 2, 3).size(), 2u);
     EXPECT_EQ(parse_numbers("--x", "1,2,-.5", "A,B[,C]", 2, 3)[2], -0.5f);
-    for (const char* text : {"1", "1,2,3,4", "1,,2", ",1,2", "1,2,"}) EXPECT_THROW(parse_numbers("--x", text, "A,B[,C]", 2, 3), UsageError) << text;
+    for (const char* text : {"1", "1,2,3,4", "1,,2", ",1,2", "1,2,"})
+        EXPECT_THROW(parse_numbers("--x", text, "A,B[,C]", 2, 3), UsageError) << text;
 }
 
 TEST(OptionValues, ErrorsNameOptionTextAndWhatIsAllowed) {

@@ -102,7 +102,7 @@ std::string write_quad(const TemporaryFolder& folder) {
     append_floats(bytes, {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0});
     append_floats(bytes, {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
     append_floats(bytes, {0, 1, 1, 1, 1, 0, 0, 0});
-    for (const char index : {'\0', '\1', '\2', '\0', '\2', '\3'}) bytes += {index, '\0'};   // little-endian 16 bits
+    for (const char index : {'\0', '\1', '\2', '\0', '\2', '\3'}) bytes += {index, '\0'};  // little-endian 16 bits
     write_file(folder / "quad.bin", bytes);
     write_file(folder / "quad.gltf", kQuadJson);
     scenes::write_8bit(folder / "texture.png", 64, 64, 3, striped_texels(64), {});

@@ -27,7 +27,7 @@ class TemporaryFolder {
 
     std::string operator/(const std::string& name) const { return (path_ / name).string(); }
     std::string str() const { return path_.string(); }
-    std::vector<std::string> names() const;   ///< of everything inside, sorted
+    std::vector<std::string> names() const;  ///< of everything inside, sorted
   private:
     std::filesystem::path path_;
 };
@@ -38,7 +38,8 @@ void write_file(const std::string& path, const std::string& bytes);
 /// A textured quad as glTF: FOLDER/quad.gltf, quad.bin and the 64x64 texture.png. Returns the path of the .gltf.
 std::string write_quad(const TemporaryFolder& folder);
 
-/// "" or why `outcome` is no failure with `code`, one line on stderr that begins "rawtexel: error: " and holds `part`, and nothing on stdout.
+/// "" or why `outcome` is no failure with `code`, one line on stderr that begins "rawtexel: error: " and holds `part`, and nothing on
+/// stdout.
 std::string why_not_failed(const Outcome& outcome, int code, const std::string& part);
 
 }  // namespace rawtexel::test

@@ -72,7 +72,7 @@ TEST(Progress, ATerminalGetsABarWithRateAndTimeLeft) {
     const std::string text = report.out.str();
     EXPECT_NE(text.find("[#######......................."), std::string::npos) << text;
     EXPECT_NE(text.find("25 %"), std::string::npos) << text;
-    EXPECT_NE(text.find("50.0 ksamples/s"), std::string::npos) << text;   // a quarter of two million in ten seconds
+    EXPECT_NE(text.find("50.0 ksamples/s"), std::string::npos) << text;  // a quarter of two million in ten seconds
     EXPECT_NE(text.find("0:30 left"), std::string::npos) << text;
     EXPECT_EQ(text.find('\n'), std::string::npos);
     report.progress.finish();

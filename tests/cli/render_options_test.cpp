@@ -38,16 +38,18 @@ TEST(RenderOptions, DefaultsAreThoseOfTheContract) {
     EXPECT_EQ(request.machine.tile_size, 64);
     EXPECT_EQ(request.machine.simd, texunit::Simd::Auto);
     EXPECT_EQ(request.machine.progress, ProgressMode::Auto);
-    EXPECT_FALSE(request.light.light || request.light.ambient || request.light.shadows || request.light.environment || request.light.background);
+    EXPECT_FALSE(request.light.light || request.light.ambient || request.light.shadows || request.light.environment ||
+                 request.light.background);
 }
 
 TEST(RenderOptions, EveryOptionReachesItsMember) {
     const RenderRequest request =
-        request_of({"--size",        "640x480", "--crop",  "10,20,30,40", "--camera",      "front",        "--target",  "1,2,3",  "--fov",        "60",
-                    "--light",       "0,-1,0,2", "--ambient", "0.25",      "--shadows",     "off",          "--environment", "sky.exr", "--background", "1,0,.5",
-                    "--filter",      "nearest", "--mip",   "none",        "--mip-storage", "float",        "--spp",     "16",     "--pixel-filter", "tent",
-                    "--pixel-jitter", "pixel",  "--seed",  "4294967295",  "--exposure",    "-1.5",         "--tonemap", "reinhard", "--transfer", "sqrt",
-                    "--threads",     "3",       "--tile-size", "128",     "--simd",        "scalar",       "--progress", "never"});
+        request_of({"--size",        "640x480",    "--crop",       "10,20,30,40", "--camera",       "front",    "--target",       "1,2,3",
+                    "--fov",         "60",         "--light",      "0,-1,0,2",    "--ambient",      "0.25",     "--shadows",      "off",
+                    "--environment", "sky.exr",    "--background", "1,0,.5",      "--filter",       "nearest",  "--mip",          "none",
+                    "--mip-storage", "float",      "--spp",        "16",          "--pixel-filter", "tent",     "--pixel-jitter", "pixel",
+                    "--seed",        "4294967295", "--exposure",   "-1.5",        "--tonemap",      "reinhard", "--transfer",     "sqrt",
+                    "--threads",     "3",          "--tile-size",  "128",         "--simd",         "scalar",   "--progress",     "never"});
     EXPECT_EQ(request.image_size(), (ImageSize{640, 480}));
     EXPECT_EQ(print(request.crop), "10,20,30,40");
     EXPECT_EQ(request.view.camera, "front");
@@ -126,7 +128,8 @@ TEST(RenderOptions, PeerShadingPresetsWhatNoOptionSays) {
     EXPECT_EQ(preset.light.shadows, false);
     EXPECT_EQ(preset.light.environment->kind, EnvironmentKind::None);
     EXPECT_EQ(preset.tone.tone_map, shading::ToneMap::None);
-    const RenderRequest mixed = request_of({"--ambient", "0.3", "--peer-shading", "--shadows", "on", "--tonemap", "aces", "--environment", "sky"});
+    const RenderRequest mixed =
+        request_of({"--ambient", "0.3", "--peer-shading", "--shadows", "on", "--tonemap", "aces", "--environment", "sky"});
     EXPECT_EQ(mixed.light.ambient, 0.3f);
     EXPECT_EQ(mixed.light.shadows, true);
     EXPECT_EQ(mixed.light.environment->kind, EnvironmentKind::Sky);

@@ -82,15 +82,17 @@ TEST(Scenario, WithoutASkyboxTheBackgroundIsWhite) {
     for (const shading::ToneMap map : {shading::ToneMap::Aces, shading::ToneMap::None}) {
         shading::Image image(1, 1, 3);
         for (int c = 0; c < 3; ++c) image.values[size_t(c)] = (*request.light.background)[c];
-        for (const uint8_t code : shading::encode_8bit(shading::tone_mapped(image, {0.0f, map, shading::Transfer::Srgb}), shading::Transfer::Srgb))
+        for (const uint8_t code :
+             shading::encode_8bit(shading::tone_mapped(image, {0.0f, map, shading::Transfer::Srgb}), shading::Transfer::Srgb))
             EXPECT_EQ(code, 255) << to_string(map);
     }
 }
 
 TEST(Scenario, EveryMissingOrWrongFieldIsNamed) {
     const Json whole = valid();
-    for (const std::string path : {"/outputFile", "/scenario", "/scenario/model", "/scenario/dimensions", "/scenario/dimensions/width",
-                                   "/scenario/target", "/scenario/target/z", "/scenario/orbit", "/scenario/orbit/phi", "/scenario/verticalFoV"}) {
+    for (const std::string path :
+         {"/outputFile", "/scenario", "/scenario/model", "/scenario/dimensions", "/scenario/dimensions/width", "/scenario/target",
+          "/scenario/target/z", "/scenario/orbit", "/scenario/orbit/phi", "/scenario/verticalFoV"}) {
         const Json::json_pointer pointer(path);
         Json json = whole;
         json.at(pointer.parent_pointer()).erase(pointer.back());
@@ -104,8 +106,19 @@ TEST(Scenario, EveryMissingOrWrongFieldIsNamed) {
 }
 
 TEST(Scenario, HostileTextIsOneLine) {
-    std::vector<std::string> texts{"", "{", "nonsense", "[]", "1", "null", "{\"scenario\":1e999}", "\"\\ud800\"", std::string(1000, '['),
-                                   std::string(100000, '{'), "{\"scenario\":{}}", std::string("{\"a\0b\":1}", 9), "\xff\xfe"};
+    std::vector<std::string> texts{"",
+                                   "{",
+                                   "nonsense",
+                                   "[]",
+                                   "1",
+                                   "null",
+                                   "{\"scenario\":1e999}",
+                                   "\"\\ud800\"",
+                                   std::string(1000, '['),
+                                   std::string(100000, '{'),
+                                   "{\"scenario\":{}}",
+                                   std::string("{\"a\0b\":1}", 9),
+                                   "\xff\xfe"};
     const std::string whole = valid().dump();
     for (size_t length = 0; length < whole.size(); ++length) texts.push_back(whole.substr(0, length));
     for (const std::string& text : texts) {
@@ -116,9 +129,13 @@ TEST(Scenario, HostileTextIsOneLine) {
 }
 
 TEST(Scenario, ExtentsAndAnglesHaveLimits) {
-    for (const auto& [path, value] : std::initializer_list<std::pair<const char*, Json>>{
-             {"/scenario/dimensions/width", 0}, {"/scenario/dimensions/width", 20000}, {"/scenario/dimensions/height", 1.5},
-             {"/scenario/orbit/radius", 0}, {"/scenario/orbit/radius", 1e300}, {"/scenario/verticalFoV", 180}, {"/scenario/target/x", -1e30}}) {
+    for (const auto& [path, value] : std::initializer_list<std::pair<const char*, Json>>{{"/scenario/dimensions/width", 0},
+                                                                                         {"/scenario/dimensions/width", 20000},
+                                                                                         {"/scenario/dimensions/height", 1.5},
+                                                                                         {"/scenario/orbit/radius", 0},
+                                                                                         {"/scenario/orbit/radius", 1e300},
+                                                                                         {"/scenario/verticalFoV", 180},
+                                                                                         {"/scenario/target/x", -1e30}}) {
         Json json = valid();
         json[Json::json_pointer(path)] = value;
         EXPECT_NE(error_of(json.dump()), "") << path << " " << value;

@@ -36,7 +36,7 @@ TEST(Spelling, CaseIsIgnored) { EXPECT_EQ(nearest_spelling("BILINEAR", kWords), 
 TEST(Spelling, AnAbbreviationMeansTheWordItBegins) {
     EXPECT_EQ(nearest_spelling("--cam", kWords), "--camera");
     EXPECT_EQ(nearest_spelling("near", kWords), "nearest");
-    EXPECT_EQ(nearest_spelling("ac", std::vector<std::string>{"ab", "acdef"}), "acdef");   // nearer than one edit
+    EXPECT_EQ(nearest_spelling("ac", std::vector<std::string>{"ab", "acdef"}), "acdef");  // nearer than one edit
 }
 
 TEST(Spelling, TheFirstOfEqualsWins) { EXPECT_EQ(nearest_spelling("a", std::vector<std::string>{"b", "c"}), "b"); }

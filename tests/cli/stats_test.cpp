@@ -59,17 +59,19 @@ TEST(Stats, HasTheKeysOfTheContract) {
     const Sample sample(true);
     const Json json = Json::parse(stats_json(sample.record, sample.scene));
     using Keys = std::set<std::string>;
-    EXPECT_EQ(keys_of(json), (Keys{"rawtexel", "scene", "command", "image", "frame_s", "time_s", "memory_bytes", "geometry", "texture", "textures"}));
+    EXPECT_EQ(keys_of(json),
+              (Keys{"rawtexel", "scene", "command", "image", "frame_s", "time_s", "memory_bytes", "geometry", "texture", "textures"}));
     EXPECT_EQ(keys_of(json["image"]), (Keys{"width", "height", "spp", "samples_shaded"}));
     EXPECT_EQ(keys_of(json["frame_s"]), (Keys{"min", "median", "n"}));
     EXPECT_EQ(keys_of(json["time_s"]), (Keys{"load", "geometry", "raster", "shade", "write", "total"}));
     EXPECT_EQ(keys_of(json["memory_bytes"]), (Keys{"peak_rss", "textures_stored", "textures_decoded"}));
-    for (const char* key : {"triangles", "culled_frustum", "culled_backface", "culled_degenerate", "culled_small", "clipped", "binned", "tiles",
-                            "tiles_empty", "hiz_rejected"})
+    for (const char* key : {"triangles", "culled_frustum", "culled_backface", "culled_degenerate", "culled_small", "clipped", "binned",
+                            "tiles", "tiles_empty", "hiz_rejected"})
         EXPECT_TRUE(json["geometry"].contains(key)) << key;
     EXPECT_EQ(keys_of(json["texture"]), (Keys{"lookups", "taps", "texels_requested", "texels_per_sample", "performed"}));
     ASSERT_EQ(json["textures"].size(), 3u);
-    for (const char* key : {"name", "format", "width", "height", "levels", "blocks_total", "lookups", "taps", "texels_requested", "performed"})
+    for (const char* key :
+         {"name", "format", "width", "height", "levels", "blocks_total", "lookups", "taps", "texels_requested", "performed"})
         EXPECT_TRUE(json["textures"][0].contains(key)) << key;
 }
 
@@ -110,7 +112,7 @@ TEST(Stats, SharedTexturesCountOnce) {
     const Sample sample(true);
     const Json json = Json::parse(stats_json(sample.record, sample.scene));
     EXPECT_EQ(json["memory_bytes"]["textures_stored"], 16 * 16 * 4 + 8 * 8 * 4);
-    EXPECT_EQ(json["texture"]["performed"]["blocks_decoded"], 2);   // one block of each
+    EXPECT_EQ(json["texture"]["performed"]["blocks_decoded"], 2);  // one block of each
     EXPECT_EQ(json["memory_bytes"]["textures_decoded"], 2 * 64);
 }
 

@@ -59,7 +59,8 @@ TEST(Usage, WrongWordsAreExitCode2WithTheNearestSpelling) {
 TEST(Usage, TheShellSeesTheSame) {
     EXPECT_EQ(why_not_failed(run_built({"render", "plane", "-o", "x.png", "--fliter", "nearest"}), 2, "'--filter'"), "");
     EXPECT_EQ(why_not_failed(run_built({"render", "plane", "-o", "/proc/nowhere/x.png"}), 4, "/proc/nowhere/x.png"), "");
-    EXPECT_EQ(why_not_failed(run_built({"render", "no-such-scene.glb", "-o", "/tmp/rawtexel-never-written.png"}), 3, "no-such-scene.glb"), "");
+    EXPECT_EQ(why_not_failed(run_built({"render", "no-such-scene.glb", "-o", "/tmp/rawtexel-never-written.png"}), 3, "no-such-scene.glb"),
+              "");
     const test::Outcome version = run_built({"--version"});
     EXPECT_EQ(version.code, 0);
     EXPECT_EQ(version.out, "rawtexel " + std::string(cli::version()) + "\n");
@@ -74,12 +75,14 @@ TEST(Usage, AFullStandardOutputIsExitCode4) {
 TEST(Usage, HelpIsComplete) {
     const test::Outcome whole = run({"--help"});
     EXPECT_EQ(whole.code, 0);
-    for (const char* part : {"render", "compare", "list", "export", "--version", "Exit codes"}) EXPECT_NE(whole.out.find(part), std::string::npos) << part;
+    for (const char* part : {"render", "compare", "list", "export", "--version", "Exit codes"})
+        EXPECT_NE(whole.out.find(part), std::string::npos) << part;
     const std::initializer_list<std::pair<const char*, std::vector<const char*>>> commands{
-        {"render", {"--size", "--crop", "--camera", "--orbit", "--eye", "--target", "--fov", "--light", "--ambient", "--shadows", "--environment",
-                    "--background", "--peer-shading", "--filter", "--mip", "--spp", "--pixel-filter", "--pixel-jitter", "--seed", "--mip-storage",
-                    "--exposure", "--tonemap", "--transfer", "--aov", "--count", "--stats", "--repeat", "--threads", "--tile-size", "--simd",
-                    "--progress", "--scenario", "-o,--output", "SCENE", "--help"}},
+        {"render", {"--size",      "--crop",     "--camera",       "--orbit",        "--eye",        "--target",       "--fov",
+                    "--light",     "--ambient",  "--shadows",      "--environment",  "--background", "--peer-shading", "--filter",
+                    "--mip",       "--spp",      "--pixel-filter", "--pixel-jitter", "--seed",       "--mip-storage",  "--exposure",
+                    "--tonemap",   "--transfer", "--aov",          "--count",        "--stats",      "--repeat",       "--threads",
+                    "--tile-size", "--simd",     "--progress",     "--scenario",     "-o,--output",  "SCENE",          "--help"}},
         {"compare", {"-o,--output", "--json", "--csv", "--max-rmse", "--min-psnr", "IMAGE", "REFERENCE"}},
         {"list", {"scenes", "filters", "formats", "counters", "--json"}},
         {"export", {"SCENE", "-o,--output"}}};
@@ -100,9 +103,9 @@ TEST(Usage, TheCommandMayComeLast) {
 
 TEST(List, NamesEverythingOneALine) {
     const std::initializer_list<std::pair<const char*, size_t>> subjects{{"scenes", scenes::builtin_scenes().size()},
-                                                                          {"filters", 3},
-                                                                          {"formats", texunit::all_formats().size()},
-                                                                          {"counters", all_counters().size()}};
+                                                                         {"filters", 3},
+                                                                         {"formats", texunit::all_formats().size()},
+                                                                         {"counters", all_counters().size()}};
     for (const auto& [subject, count] : subjects) {
         const test::Outcome lines = run({"list", subject}), json = run({"list", subject, "--json"});
         EXPECT_EQ(lines.code, 0);

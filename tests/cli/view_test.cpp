@@ -60,8 +60,8 @@ void expect_pasteable(const shading::Scene& scene, const ViewOptions& options, f
 TEST(View, WhatIsPrintedGivesTheSameCamera) {
     for (const bool with_cameras : {false, true})
         for (const float aspect : {0.5f, 1.0f, 16.0f / 9.0f})
-            for (const char* options : {"--fov 45", "--fov 20", "--orbit 30,20", "--orbit -100,-60,2.5", "--orbit 10,90", "--orbit 0,120", "--eye 9,1,2",
-                                        "--target 0,1,0", "--eye 1,2,3 --target 0,0,0 --fov 77", "--orbit 30,20 --fov 90"})
+            for (const char* options : {"--fov 45", "--fov 20", "--orbit 30,20", "--orbit -100,-60,2.5", "--orbit 10,90", "--orbit 0,120",
+                                        "--eye 9,1,2", "--target 0,1,0", "--eye 1,2,3 --target 0,0,0 --fov 77", "--orbit 30,20 --fov 90"})
                 expect_pasteable(sample_scene(with_cameras), parse_view(options), aspect);
     for (const char* name : {"front", "tilted", "0", "1"}) expect_pasteable(sample_scene(true), camera_named(name), 1.5f);
     expect_pasteable(sample_scene(false), {}, 1.5f);
