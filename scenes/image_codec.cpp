@@ -63,6 +63,12 @@ class CheckedPng {
     Bytes bytes_;
 };
 
+/// The library decodes in the thread that calls it: how many threads run is the program's to say.
+void keep_single_threaded() {
+    static const bool once = OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1);
+    (void)once;
+}
+
 /// A reader over bytes in memory. The proxy must outlive the input, so it comes first.
 struct Reader {
     OIIO::Filesystem::IOMemReader proxy;
@@ -70,6 +76,7 @@ struct Reader {
     OIIO::ImageSpec spec;
 
     Reader(std::string_view format, Bytes encoded) : proxy(encoded.data(), encoded.size()) {
+        keep_single_threaded();
         input = OIIO::ImageInput::create(OIIO::string_view(format.data(), format.size()), false, nullptr, &proxy);
     }
     bool open(const std::string& name) {
@@ -177,6 +184,7 @@ namespace {
 /// Null when no format that writes to memory goes with the extension.
 OIIO::ImageOutput::unique_ptr create_output(const std::string& path) {
     if (extension_of(path).empty()) return nullptr;
+    keep_single_threaded();
     auto output = OIIO::ImageOutput::create(path);
     OIIO::geterror();  // asking is no error
     return output && output->supports("ioproxy") ? std::move(output) : nullptr;
