@@ -311,6 +311,8 @@ TEST(RenderErrors, OutputThatCannotBeWrittenIsExitCode4BeforeTheRender) {
     for (const std::string& place :
          {folder / "missing/a.png", scene + "/a.png", folder.str() + "/../missing/a.exr", std::string("/proc/a.png")})
         EXPECT_EQ(why_not_failed(run(render_words(scene, place)), kCannotWrite, place), "");
+    // The output is looked at before the scene, which is missing too.
+    EXPECT_EQ(why_not_failed(run(render_words(folder / "none.gltf", folder / "missing/a.png")), kCannotWrite, "missing/a.png"), "");
     std::filesystem::create_directory(folder / "folder.png");
     EXPECT_EQ(why_not_failed(run(render_words(scene, folder / "folder.png")), kCannotWrite, "folder.png"), "");
     EXPECT_EQ(
