@@ -54,15 +54,9 @@ std::optional<Transfer> parse_transfer(std::string_view text) {
 
 Image tone_mapped(const Image& radiance, const DisplayOptions& options) {
     assert(radiance.channels >= 3);
-    const float factor = std::exp2(options.exposure);
     Image display = radiance;
-    for (size_t i = 0; i + 2 < display.values.size(); i += size_t(display.channels)) {
-        float* pixel = display.values.data() + i;
-        const glm::vec3 mapped = tone_mapped(glm::vec3(pixel[0], pixel[1], pixel[2]), factor, options.tone_map);
-        pixel[0] = mapped.r;
-        pixel[1] = mapped.g;
-        pixel[2] = mapped.b;
-    }
+    const size_t pixels = size_t(display.width) * size_t(display.height);
+    tone_map_pixels(display.values.data(), pixels, display.channels, std::exp2(options.exposure), options.tone_map);
     return display;
 }
 

@@ -154,7 +154,8 @@ HWY_INLINE V roughness_level(D d, const RoughnessScale& scale, V roughness) {
     const V one = hn::Set(d, 1.0f), offset = hn::Sub(roughness, hn::Set(d, first));
     const float slope = float(kSpecularLevels - 2) * (1.0f + bend) / (1.0f - first);
     const V wide = hn::Add(hn::Div(hn::Mul(offset, hn::Set(d, slope)), hn::Add(roughness, hn::Set(d, bend))), one);
-    const V narrow = hn::Mul(hn::Mul(roughness, roughness), hn::Set(d, 1.0f / (first * first)));
+    const V ratio = hn::Mul(roughness, hn::Set(d, 1.0f / first));
+    const V narrow = hn::Mul(hn::Mul(ratio, ratio), hn::Sqrt(ratio));
     return hn::IfThenElse(hn::Lt(offset, hn::Zero(d)), narrow, wide);
 }
 

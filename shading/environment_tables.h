@@ -15,7 +15,8 @@ inline constexpr int kSpecularLevels = 24;
 
 /// The roughness r of the prefiltered levels. Level 0 is the image itself, level 1 has the narrowest lobe that the image's texels resolve,
 /// the last one has roughness 1: the cosine lobe, which is a white diffuse surface's too. In between the lobes' widths grow about
-/// geometrically: level = 1 + (levels - 2) (r - first) (1 + kBend) / ((r + kBend) (1 - first)); below, level = (r / first)^2.
+/// geometrically: level = 1 + (levels - 2) (r - first) (1 + kBend) / ((r + kBend) (1 - first)); below, level = (r / first)^2.5,
+/// between the shares of the lobes' peaks and of their tails.
 struct RoughnessScale {
     static constexpr float kBend = 0.3f;
     float first = 0.1f;  ///< roughness of level 1

@@ -92,9 +92,9 @@ namespace {
 /// Largest patch that stands for its parts, as a share of the lobe's scale at its distance.
 constexpr float kPatchShare = 0.4f;
 /// Lobes wider than kWideAlpha feel their edge at the horizon: patches that straddle it are kept small.
-constexpr float kWideAlpha = 0.2f, kWidePatch = 0.05f;
+constexpr float kWideAlpha = 0.12f, kWidePatch = 0.07f;
 /// Texels of a map per lobe, and the least side of a map: a cosine lobe must not show facets.
-constexpr double kTexelsPerLobe = 16.0, kLeastExtent = 96.0;
+constexpr double kTexelsPerLobe = 16.0, kLeastExtent = 112.0;
 
 /// Greatest side of a lobe's map: some texels per texel of small images, fewer for large ones.
 double greatest_extent(int width) { return std::clamp(1.5 * width, kLeastExtent, std::clamp(0.75 * width, 384.0, 1024.0)); }

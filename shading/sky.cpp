@@ -11,10 +11,10 @@ namespace {
 /// Towards the sun: 38 degrees up, to the left of a camera that looks along (-1, 0, -1).
 const glm::vec3 kToSun = glm::normalize(glm::vec3(-0.40f, 0.72f, 0.82f));
 
-const glm::vec3 kZenith(0.16f, 0.33f, 0.80f);       // deep blue overhead
-const glm::vec3 kHorizon(0.86f, 0.92f, 1.00f);      // pale haze
-const glm::vec3 kWarmHorizon(1.15f, 0.92f, 0.68f);  // the same below the sun
-const glm::vec3 kGround(0.26f, 0.23f, 0.19f);       // dry earth, lit by all this
+const glm::vec3 kZenith(0.15f, 0.40f, 1.10f);       // deep blue overhead
+const glm::vec3 kHorizon(1.00f, 1.22f, 1.45f);      // pale haze
+const glm::vec3 kWarmHorizon(1.75f, 1.38f, 1.00f);  // the same below the sun
+const glm::vec3 kGround(0.30f, 0.25f, 0.18f);       // dry earth, lit by all this
 const glm::vec3 kGlow(1.00f, 0.86f, 0.64f);
 
 float smooth_step(float low, float high, float x) {
@@ -34,15 +34,15 @@ glm::vec3 sky_radiance(const glm::vec3& direction) {
     const float up = std::max(direction.y, 0.0f);
 
     // Air thins with height: the haze falls off fast above the horizon, warmer towards the sun.
-    const float haze = std::exp(-4.5f * up);
+    const float haze = std::exp(-6.0f * up);
     const float sunward = 0.5f + 0.5f * cosine;
     const glm::vec3 horizon = glm::mix(kHorizon, kWarmHorizon, sunward * sunward * sunward);
     glm::vec3 sky = glm::mix(kZenith, horizon, haze);
     sky += kGlow * (0.45f * forward_scatter(cosine, 0.60f) + 2.2f * forward_scatter(cosine, 0.90f));
 
     // The ground fades into haze at the horizon.
-    const glm::vec3 ground = glm::mix(kGround, horizon * 0.8f, 0.55f * std::exp(6.0f * std::min(direction.y, 0.0f)));
-    return glm::mix(ground, sky, smooth_step(-0.025f, 0.015f, direction.y));
+    const glm::vec3 ground = glm::mix(kGround, horizon * 0.7f, 0.6f * std::exp(20.0f * std::min(direction.y, 0.0f)));
+    return glm::mix(ground, sky, smooth_step(-0.035f, 0.025f, direction.y));
 }
 
 }  // namespace
@@ -57,6 +57,6 @@ Image sky_latlong(int width, int height) {
     return image;
 }
 
-Sun sky_sun() { return {-kToSun, glm::vec3(1.0f, 0.93f, 0.82f), 4.0f}; }
+Sun sky_sun() { return {-kToSun, glm::vec3(1.0f, 0.93f, 0.82f), 5.0f}; }
 
 }  // namespace rawtexel::shading

@@ -30,11 +30,27 @@ glm::vec3 tone_map_aces(const glm::vec3& c) {
 glm::vec3 tone_map_reinhard(const glm::vec3& c) { return c / (1.0f + c); }
 
 glm::vec3 tone_mapped(const glm::vec3& radiance, float exposure_factor, ToneMap tone_map) {
-    const glm::vec3 exposed(held(radiance.r * exposure_factor), held(radiance.g * exposure_factor), held(radiance.b * exposure_factor));
-    const glm::vec3 mapped = tone_map == ToneMap::Aces       ? tone_map_aces(exposed)
-                             : tone_map == ToneMap::Reinhard ? tone_map_reinhard(exposed)
-                                                             : exposed;
-    return {clamped(mapped.r), clamped(mapped.g), clamped(mapped.b)};
+    glm::vec3 color = radiance;
+    tone_map_pixels(&color.x, 1, 3, exposure_factor, tone_map);
+    return color;
+}
+
+void tone_map_pixels(float* pixels, size_t count, int channels, float exposure_factor, ToneMap tone_map) {
+    const auto map_with = [&](auto curve) {
+        for (size_t i = 0; i < count; ++i) {
+            float* p = pixels + i * size_t(channels);
+            const glm::vec3 mapped =
+                curve(glm::vec3(held(p[0] * exposure_factor), held(p[1] * exposure_factor), held(p[2] * exposure_factor)));
+            p[0] = clamped(mapped.r);
+            p[1] = clamped(mapped.g);
+            p[2] = clamped(mapped.b);
+        }
+    };
+    switch (tone_map) {
+        case ToneMap::Aces: return map_with([](const glm::vec3& c) { return tone_map_aces(c); });
+        case ToneMap::Reinhard: return map_with([](const glm::vec3& c) { return tone_map_reinhard(c); });
+        case ToneMap::None: return map_with([](const glm::vec3& c) { return c; });
+    }
 }
 
 }  // namespace rawtexel::shading
