@@ -9,24 +9,18 @@ namespace rawtexel::shading {
 
 double encoded(double linear, Transfer transfer) {
     switch (transfer) {
-        case Transfer::Srgb:
-            return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-        case Transfer::Sqrt:
-            return std::sqrt(linear);
-        case Transfer::Linear:
-            break;
+        case Transfer::Srgb: return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+        case Transfer::Sqrt: return std::sqrt(linear);
+        case Transfer::Linear: break;
     }
     return linear;
 }
 
 double decoded(double code, Transfer transfer) {
     switch (transfer) {
-        case Transfer::Srgb:
-            return code <= 12.92 * 0.0031308 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
-        case Transfer::Sqrt:
-            return code * code;
-        case Transfer::Linear:
-            break;
+        case Transfer::Srgb: return code <= 12.92 * 0.0031308 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+        case Transfer::Sqrt: return code * code;
+        case Transfer::Linear: break;
     }
     return code;
 }

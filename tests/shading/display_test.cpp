@@ -25,12 +25,9 @@ int code_of(float value, Transfer transfer) {
 long double exact_code(float value, Transfer transfer) {
     const long double x = value;
     switch (transfer) {
-        case Transfer::Srgb:
-            return 255.0L * (x <= 0.0031308L ? 12.92L * x : 1.055L * std::pow(x, 1.0L / 2.4L) - 0.055L);
-        case Transfer::Sqrt:
-            return 255.0L * std::sqrt(x);
-        case Transfer::Linear:
-            break;
+        case Transfer::Srgb: return 255.0L * (x <= 0.0031308L ? 12.92L * x : 1.055L * std::pow(x, 1.0L / 2.4L) - 0.055L);
+        case Transfer::Sqrt: return 255.0L * std::sqrt(x);
+        case Transfer::Linear: break;
     }
     return 255.0L * x;
 }

@@ -220,21 +220,11 @@ TEST(ShadeSurface, NoSurfaceMakesItReadOutsideItsTables) {
             reference::Surface s = random_surface(random);
             const double value = wild[random() % std::size(wild)];
             switch (random() % 5) {
-                case 0:
-                    s.position = glm::dvec3(value);
-                    break;
-                case 1:
-                    s.normal = glm::dvec3(value);
-                    break;
-                case 2:
-                    s.view = glm::dvec3(0.0, value, 0.0);
-                    break;
-                case 3:
-                    s.roughness = value;
-                    break;
-                default:
-                    s.normal.x = value;
-                    break;
+                case 0: s.position = glm::dvec3(value); break;
+                case 1: s.normal = glm::dvec3(value); break;
+                case 2: s.view = glm::dvec3(0.0, value, 0.0); break;
+                case 3: s.roughness = value; break;
+                default: s.normal.x = value; break;
             }
             put_surface(s, wave, lane);
         }
