@@ -1,5 +1,6 @@
 // One lookup for a wave on this instruction set: select -> fetch -> filter (texunit/sample.h).
 #include "texunit/filter-inl.h"
+#include "texunit/footprint-inl.h"
 
 #include <hwy/highway.h>
 

@@ -9,9 +9,14 @@ namespace {
 template <class T, size_t n>
 using Spellings = std::array<std::pair<T, std::string_view>, n>;
 
-constexpr Spellings<Wrap, 3> kWraps = {{{Wrap::Repeat, "repeat"}, {Wrap::MirroredRepeat, "mirror"}, {Wrap::ClampToEdge, "clamp"}}};
-constexpr Spellings<Kernel, 2> kKernels = {{{Kernel::Nearest, "nearest"}, {Kernel::Bilinear, "bilinear"}}};
+constexpr Spellings<Wrap, 5> kWraps = {{{Wrap::Repeat, "repeat"},
+                                        {Wrap::MirroredRepeat, "mirror"},
+                                        {Wrap::ClampToEdge, "clamp"},
+                                        {Wrap::ClampToBorder, "border"},
+                                        {Wrap::MirrorOnce, "mirror-once"}}};
 constexpr Spellings<MipMode, 3> kMipModes = {{{MipMode::None, "none"}, {MipMode::Nearest, "nearest"}, {MipMode::Linear, "linear"}}};
+constexpr Spellings<LodRule, 2> kLodRules = {{{LodRule::D3d, "d3d"}, {LodRule::Exact, "exact"}}};
+constexpr Spellings<Precision, 2> kPrecisions = {{{Precision::Exact, "exact"}, {Precision::Gpu, "gpu"}}};
 
 template <class T, size_t n>
 std::string_view spelling(const Spellings<T, n>& spellings, T value) {
@@ -32,11 +37,13 @@ std::optional<T> parse(const Spellings<T, n>& spellings, std::string_view text) 
 }  // namespace
 
 std::string_view to_string(Wrap wrap) { return spelling(kWraps, wrap); }
-std::string_view to_string(Kernel kernel) { return spelling(kKernels, kernel); }
 std::string_view to_string(MipMode mode) { return spelling(kMipModes, mode); }
+std::string_view to_string(LodRule rule) { return spelling(kLodRules, rule); }
+std::string_view to_string(Precision precision) { return spelling(kPrecisions, precision); }
 
 std::optional<Wrap> parse_wrap(std::string_view text) { return parse(kWraps, text); }
-std::optional<Kernel> parse_kernel(std::string_view text) { return parse(kKernels, text); }
 std::optional<MipMode> parse_mip_mode(std::string_view text) { return parse(kMipModes, text); }
+std::optional<LodRule> parse_lod_rule(std::string_view text) { return parse(kLodRules, text); }
+std::optional<Precision> parse_precision(std::string_view text) { return parse(kPrecisions, text); }
 
 }  // namespace rawtexel::texunit

@@ -154,8 +154,8 @@ SamplerState sampler_number(uint32_t n) {
     SamplerState sampler;
     sampler.wrap_s = Wrap(n % 3), n /= 3;
     sampler.wrap_t = Wrap(n % 3), n /= 3;
-    sampler.magnify = Kernel(n % 2), n /= 2;
-    sampler.minify = Kernel(n % 2), n /= 2;
+    sampler.magnify = Kernel{KernelKind(n % 2)}, n /= 2;
+    sampler.minify = Kernel{KernelKind(n % 2)}, n /= 2;
     sampler.mip = MipMode(n % 3);
     return sampler;
 }

@@ -9,14 +9,14 @@ namespace rawtexel::texunit {
 namespace {
 
 TEST(Sampler, PrintsAndParsesOneSpelling) {
-    for (const Wrap wrap : {Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge}) EXPECT_EQ(parse_wrap(to_string(wrap)), wrap);
-    for (const Kernel kernel : {Kernel::Nearest, Kernel::Bilinear}) EXPECT_EQ(parse_kernel(to_string(kernel)), kernel);
+    for (const Wrap wrap : {Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge, Wrap::ClampToBorder, Wrap::MirrorOnce})
+        EXPECT_EQ(parse_wrap(to_string(wrap)), wrap);
+    for (const LodRule rule : {LodRule::D3d, LodRule::Exact}) EXPECT_EQ(parse_lod_rule(to_string(rule)), rule);
+    for (const Precision precision : {Precision::Exact, Precision::Gpu}) EXPECT_EQ(parse_precision(to_string(precision)), precision);
     for (const MipMode mode : {MipMode::None, MipMode::Nearest, MipMode::Linear}) EXPECT_EQ(parse_mip_mode(to_string(mode)), mode);
     EXPECT_EQ(to_string(Wrap::MirroredRepeat), "mirror");
-    EXPECT_EQ(to_string(Kernel::Bilinear), "bilinear");
     EXPECT_EQ(to_string(MipMode::None), "none");
     EXPECT_EQ(parse_wrap("mirrored"), std::nullopt);
-    EXPECT_EQ(parse_kernel(""), std::nullopt);
     EXPECT_EQ(parse_mip_mode("Linear"), std::nullopt);
 }
 

@@ -20,6 +20,8 @@ double lambda_of(const Image& image, const Lookup& at) {
     return std::log2(std::max(rho_x, rho_y));
 }
 
+constexpr int kBorder = -1;
+
 /// Vulkan "Wrapping Operation".
 int wrap_texel(Wrap wrap, long long i, int size) {
     const auto mod = [](long long a, long long n) { return ((a % n) + n) % n; };
@@ -31,6 +33,8 @@ int wrap_texel(Wrap wrap, long long i, int size) {
             return int((size - 1) - mirrored);
         }
         case Wrap::ClampToEdge: return int(std::clamp<long long>(i, 0, size - 1));
+        case Wrap::ClampToBorder: return i < 0 || i >= size ? kBorder : int(i);
+        case Wrap::MirrorOnce: return int(std::clamp<long long>(i >= 0 ? i : -(1 + i), 0, size - 1));
     }
     return 0;
 }
@@ -47,7 +51,9 @@ double texel_space(Wrap wrap, float coordinate, int size) {
     switch (wrap) {
         case Wrap::Repeat: return std::fmod(u, 1.0) * size;
         case Wrap::MirroredRepeat: return std::fmod(u, 2.0) * size;
-        case Wrap::ClampToEdge: return std::clamp(u, -2.0, 3.0) * size;
+        case Wrap::ClampToEdge:
+        case Wrap::ClampToBorder:
+        case Wrap::MirrorOnce: return std::clamp(u, -10.0, 10.0) * size;
     }
     return 0;
 }
