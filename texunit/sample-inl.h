@@ -52,7 +52,7 @@ HWY_INLINE void count_lookups(WaveMask mask, FetchCounter& count) { count.textur
 
 /// One level of a lookup, through all three stages.
 template <StorageClass storage, int W, class Count>
-HWY_INLINE void sample_level(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, const WaveInt& level,
+HWY_INLINE void sample_level(Texture& texture, const SamplerState& sampler, const WavePosition& at, const WaveInt& level,
                              WaveMask nearest, WaveMask counted, Count& count, WaveColor& out) {
     TapWave<W> taps;
     select_taps(texture.levels(), sampler, at, level, nearest, taps);
@@ -62,9 +62,10 @@ HWY_INLINE void sample_level(Texture& texture, const SamplerState& sampler, cons
     filter<storage>(taps, texels, out);
 }
 
+/// Both levels of a lookup through kernels of at most W taps an axis.
 template <StorageClass storage, int W, class Count>
-HWY_NOINLINE void sample_levels(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, const LevelChoice& choice,
-                                WaveMask nearest, WaveMask mask, Count& count, WaveColor& out) {
+HWY_NOINLINE void mix_sampled_levels(Texture& texture, const SamplerState& sampler, const WavePosition& at, const LevelChoice& choice,
+                                     WaveMask nearest, WaveMask mask, Count& count, WaveColor& out) {
     sample_level<storage, W>(texture, sampler, at, choice.finer, nearest, mask, count, out);
     if (!choice.mixes) return;
     const FloatTag d;
@@ -78,14 +79,27 @@ HWY_NOINLINE void sample_levels(Texture& texture, const SamplerState& sampler, c
 }
 
 template <StorageClass storage, class Count>
-HWY_INLINE void sample_stored(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, const LevelChoice& choice,
+HWY_INLINE void sample_stored(Texture& texture, const SamplerState& sampler, const WavePosition& at, const LevelChoice& choice,
                               WaveMask mask, Count& count, WaveColor& out) {
     // Waves that mix kernels embed the nearest lanes in the wider one.
     const WaveMask nearest = nearest_lanes(sampler, choice);
     if (nearest == kWaveFull) {
-        sample_levels<storage, 1>(texture, sampler, at, choice, nearest, mask, count, out);
+        mix_sampled_levels<storage, 1>(texture, sampler, at, choice, nearest, mask, count, out);
     } else {
-        sample_levels<storage, 2>(texture, sampler, at, choice, nearest, mask, count, out);
+        mix_sampled_levels<storage, 2>(texture, sampler, at, choice, nearest, mask, count, out);
+    }
+}
+
+/// Samples the levels of `choice` at `at` and mixes them: one lookup, or one probe of it. Lanes outside `mask`, which is not 0, repeat an
+/// active one in `at` and in `choice`, so that they read what is read anyway; what they get is unspecified but initialised.
+template <class Count>
+HWY_INLINE void sample_levels(Texture& texture, const SamplerState& sampler, const WavePosition& at, const LevelChoice& choice,
+                              WaveMask mask, Count& count, WaveColor& out) {
+    switch (texture.texel_layout().storage) {
+        case StorageClass::Packed32: return sample_stored<StorageClass::Packed32>(texture, sampler, at, choice, mask, count, out);
+        case StorageClass::Packed64: return sample_stored<StorageClass::Packed64>(texture, sampler, at, choice, mask, count, out);
+        case StorageClass::Half4: return sample_stored<StorageClass::Half4>(texture, sampler, at, choice, mask, count, out);
+        case StorageClass::Float4: return sample_stored<StorageClass::Float4>(texture, sampler, at, choice, mask, count, out);
     }
 }
 
@@ -113,12 +127,7 @@ HWY_NOINLINE void sample_lanes(Texture& texture, const SamplerState& sampler, co
     }
 
     count_lookups(mask, count);
-    switch (texture.texel_layout().storage) {
-        case StorageClass::Packed32: return sample_stored<StorageClass::Packed32>(texture, sampler, at, choice, mask, count, out);
-        case StorageClass::Packed64: return sample_stored<StorageClass::Packed64>(texture, sampler, at, choice, mask, count, out);
-        case StorageClass::Half4: return sample_stored<StorageClass::Half4>(texture, sampler, at, choice, mask, count, out);
-        case StorageClass::Float4: return sample_stored<StorageClass::Float4>(texture, sampler, at, choice, mask, count, out);
-    }
+    sample_levels(texture, sampler, {&at.u, &at.v}, choice, mask, count, out);
 }
 
 }  // namespace HWY_NAMESPACE

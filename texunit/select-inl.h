@@ -19,6 +19,12 @@ namespace rawtexel::texunit {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// Where a wave samples, lane by lane, whatever its footprint: what the probes of an anisotropic lookup move.
+struct WavePosition {
+    const WaveFloat* u;
+    const WaveFloat* v;
+};
+
 /// Texels along both axes that a kernel of `W` taps an axis covers, indices already wrapped. Lane by lane, tap (i, j) is the texel
 /// (x[i], y[j]). For W = 2 its weights along x are 1 - fraction_x and fraction_x; where a fraction is 0 the second index repeats the first.
 template <int W>
@@ -130,11 +136,11 @@ HWY_INLINE void select_axis(Wrap wrap, const WaveFloat& coordinate, const std::a
 
 /// The taps of one level per lane, for all lanes.
 template <int W>
-HWY_INLINE void select_taps(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at, const WaveInt& level,
+HWY_INLINE void select_taps(const LevelTable& table, const SamplerState& sampler, const WavePosition& at, const WaveInt& level,
                             WaveMask nearest, TapWave<W>& taps) {
     taps.level = level;
-    select_axis(sampler.wrap_s, at.u, table.width, level, nearest, taps.x, taps.fraction_x);
-    select_axis(sampler.wrap_t, at.v, table.height, level, nearest, taps.y, taps.fraction_y);
+    select_axis(sampler.wrap_s, *at.u, table.width, level, nearest, taps.x, taps.fraction_x);
+    select_axis(sampler.wrap_t, *at.v, table.height, level, nearest, taps.y, taps.fraction_y);
 }
 
 }  // namespace HWY_NAMESPACE
