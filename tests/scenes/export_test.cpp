@@ -162,12 +162,12 @@ std::vector<std::byte> random_bytes(size_t count, uint32_t state) {
 
 /// A corner of the texture, so that large images need not be encoded to see whether the rest of a scene survives.
 shading::SceneTexture corner_of(const shading::SceneTexture& source) {
-    constexpr int kSide = 16;
+    const int width = std::min(16, source.texture->shape().width), height = std::min(16, source.texture->shape().height);
     std::vector<std::byte> codes;
-    for (int i = 0; i < kSide * kSide; ++i)
-        for (const float value : source.texture->texel(0, 0, i % kSide, i / kSide)) codes.push_back(std::byte(std::lround(value * 255.0f)));
+    for (int i = 0; i < width * height; ++i)
+        for (const float value : source.texture->texel(0, 0, i % width, i / width)) codes.push_back(std::byte(std::lround(value * 255.0f)));
     shading::SceneTexture corner = source;
-    corner.texture = memory_texture(source.srgb ? Format::RGBA8Srgb : Format::RGBA8Unorm, kSide, kSide, codes);
+    corner.texture = memory_texture(source.srgb ? Format::RGBA8Srgb : Format::RGBA8Unorm, width, height, codes);
     return corner;
 }
 
