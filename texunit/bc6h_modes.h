@@ -103,4 +103,13 @@ constexpr Bc6hFields parse_bc6h_fields(std::string_view text) {
     return fields;
 }
 
+constexpr bool bc6h_modes_fill_the_block() {
+    for (const Bc6hMode& mode : kBc6hModes) {
+        const int index_bits = mode.subsets == 2 ? 16 * 3 - 2 : 16 * 4 - 1;
+        if (parse_bc6h_fields(mode.bits).bits + index_bits != 128) return false;
+    }
+    return true;
+}
+static_assert(bc6h_modes_fill_the_block());
+
 }  // namespace rawtexel::texunit

@@ -5,8 +5,74 @@
 #include <algorithm>
 #include <cstring>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "texunit/bc_ramp.cpp"
+#include <hwy/foreach_target.h>
+
+#include "texunit/bc_ramp-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rawtexel::texunit {
+namespace HWY_NAMESPACE {
+namespace {
+
+#if RAWTEXEL_BC_LANES
+
+template <bool is_signed>
+HWY_INLINE void decode_one(const std::byte* block, std::byte* texels) {
+    const ValueLanes red = read_value_lanes<is_signed>(block);
+    for (int half = 0; half < 2; ++half) store_texels(red.values(half), hn::Zero(TexelTag()), texels + 64 * half);
+}
+
+template <bool is_signed>
+HWY_INLINE void decode_two(const std::byte* block, std::byte* texels) {
+    const ValueLanes red = read_value_lanes<is_signed>(block), green = read_value_lanes<is_signed>(block + 8);
+    for (int half = 0; half < 2; ++half) {
+        store_texels(hn::Or(red.values(half), hn::ShiftLeft<16>(green.values(half))), hn::Zero(TexelTag()), texels + 64 * half);
+    }
+}
+
+#else
+
+template <bool is_signed>
+HWY_INLINE ValueBlock read_values(const std::byte* block) {
+    return is_signed ? read_signed_values(block) : read_unsigned_values(block);
+}
+
+HWY_INLINE void store(std::byte* texels, int i, uint64_t word) { std::memcpy(texels + 8 * i, &word, 8); }
+
+template <bool is_signed>
+HWY_INLINE void decode_one(const std::byte* block, std::byte* texels) {
+    const ValueBlock red = read_values<is_signed>(block);
+    for (int i = 0; i < 16; ++i) store(texels, i, red.value(i));
+}
+
+template <bool is_signed>
+HWY_INLINE void decode_two(const std::byte* block, std::byte* texels) {
+    const ValueBlock red = read_values<is_signed>(block), green = read_values<is_signed>(block + 8);
+    for (int i = 0; i < 16; ++i) store(texels, i, red.value(i) | (uint64_t{green.value(i)} << 16));
+}
+
+#endif  // RAWTEXEL_BC_LANES
+
+void decode_bc4u(const std::byte* block, std::byte* texels) { decode_one<false>(block, texels); }
+void decode_bc4s(const std::byte* block, std::byte* texels) { decode_one<true>(block, texels); }
+void decode_bc5u(const std::byte* block, std::byte* texels) { decode_two<false>(block, texels); }
+void decode_bc5s(const std::byte* block, std::byte* texels) { decode_two<true>(block, texels); }
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace rawtexel::texunit
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace rawtexel::texunit {
 namespace {
+
+HWY_EXPORT(decode_bc4u);
+HWY_EXPORT(decode_bc4s);
+HWY_EXPORT(decode_bc5u);
+HWY_EXPORT(decode_bc5s);
 
 /// Sevenths of the way where `eight_values`, else fifths and the two extremes; all over 35 times the codes' denominator.
 std::array<uint16_t, 8> interpolate(int first, int second, bool eight_values, int minimum, int maximum) {
@@ -23,20 +89,6 @@ std::array<uint16_t, 8> interpolate(int first, int second, bool eight_values, in
     return palette;
 }
 
-void store_one(const ValueBlock& red, std::byte* texels) {
-    for (int i = 0; i < 16; ++i) {
-        const uint64_t word = red.value(i);
-        std::memcpy(texels + 8 * i, &word, 8);
-    }
-}
-
-void store_two(const ValueBlock& red, const ValueBlock& green, std::byte* texels) {
-    for (int i = 0; i < 16; ++i) {
-        const uint64_t word = red.value(i) | (uint64_t{green.value(i)} << 16);
-        std::memcpy(texels + 8 * i, &word, 8);
-    }
-}
-
 }  // namespace
 
 ValueBlock read_unsigned_values(const std::byte* block) {
@@ -51,15 +103,10 @@ ValueBlock read_signed_values(const std::byte* block) {
     return {interpolate(std::max(first, -127), std::max(second, -127), first > second, -127, 127), bits >> 16};
 }
 
-void decode_bc4_unorm(const std::byte* block, std::byte* texels) { store_one(read_unsigned_values(block), texels); }
-void decode_bc4_snorm(const std::byte* block, std::byte* texels) { store_one(read_signed_values(block), texels); }
-
-void decode_bc5_unorm(const std::byte* block, std::byte* texels) {
-    store_two(read_unsigned_values(block), read_unsigned_values(block + 8), texels);
-}
-
-void decode_bc5_snorm(const std::byte* block, std::byte* texels) {
-    store_two(read_signed_values(block), read_signed_values(block + 8), texels);
-}
+void decode_bc4_unorm(const std::byte* block, std::byte* texels) { HWY_DYNAMIC_DISPATCH(decode_bc4u)(block, texels); }
+void decode_bc4_snorm(const std::byte* block, std::byte* texels) { HWY_DYNAMIC_DISPATCH(decode_bc4s)(block, texels); }
+void decode_bc5_unorm(const std::byte* block, std::byte* texels) { HWY_DYNAMIC_DISPATCH(decode_bc5u)(block, texels); }
+void decode_bc5_snorm(const std::byte* block, std::byte* texels) { HWY_DYNAMIC_DISPATCH(decode_bc5s)(block, texels); }
 
 }  // namespace rawtexel::texunit
+#endif

@@ -2,6 +2,7 @@
 #include "texunit/block_codec.h"
 
 #include "tests/reference/texunit/bc_bc1_to_5.h"
+#include "tests/texunit/every_simd.h"
 
 #include <gtest/gtest.h>
 
@@ -79,13 +80,17 @@ void expect_colour(const Decoded& decoded, const std::byte* block, ColourRule ru
     }
 }
 
-void expect_bc1_to_3(uint32_t first, uint32_t second, uint32_t indices) {
+void expect_bc1_to_3_here(uint32_t first, uint32_t second, uint32_t indices) {
     const auto block = colour_block(first, second, indices);
     expect_colour(Decoded(Format::BC1RgbUnorm, block.data()), block.data(), ColourRule::Bc1, false, "BC1 RGB");
     expect_colour(Decoded(Format::BC1RgbaUnorm, block.data()), block.data(), ColourRule::Bc1, true, "BC1 RGBA");
     const auto opaque2 = joined(value_block(0xFF, 0xFF, 0xFFFFFFFFFFFF), block), opaque3 = joined(value_block(0xFF, 0, 0), block);
     expect_colour(Decoded(Format::BC2Unorm, opaque2.data()), block.data(), ColourRule::AlwaysFourColours, false, "BC2");
     expect_colour(Decoded(Format::BC3Unorm, opaque3.data()), block.data(), ColourRule::AlwaysFourColours, false, "BC3");
+}
+
+void expect_bc1_to_3(uint32_t first, uint32_t second, uint32_t indices) {
+    on_every_simd([&] { expect_bc1_to_3_here(first, second, indices); });
 }
 
 TEST(ColourBlocks, AreExactForEveryEndpointPairOfEveryChannel) {
@@ -136,44 +141,52 @@ TEST(ColourBlocks, KeepExplicitAlpha) {
         std::array<std::byte, 8> alpha;
         std::memcpy(alpha.data(), &bits, 8);
         const auto block = joined(alpha, colour_block(uint32_t(random()) & 0xFFFF, uint32_t(random()) & 0xFFFF, uint32_t(random())));
-        const Decoded decoded(Format::BC2Unorm, block.data());
-        for (int texel = 0; texel < 16; ++texel) {
-            ASSERT_EQ(decoded(3, texel), reference::evaluate_explicit_alpha(block.data(), texel)) << std::hex << bits << " texel " << texel;
-        }
+        on_every_simd([&] {
+            const Decoded decoded(Format::BC2Unorm, block.data());
+            for (int texel = 0; texel < 16; ++texel) {
+                ASSERT_EQ(decoded(3, texel), reference::evaluate_explicit_alpha(block.data(), texel))
+                    << std::hex << bits << " texel " << texel;
+            }
+        });
     }
 }
 
 TEST(ValueBlocks, AreExactForEveryEndpointPairAndIndex) {
-    for (uint32_t first = 0; first < 256; ++first) {
-        for (uint32_t second = 0; second < 256; ++second) {
-            const auto block = value_block(first, second, kEveryValueIndex);
-            const Decoded positive(Format::BC4Unorm, block.data()), with_sign(Format::BC4Snorm, block.data());
-            for (int texel = 0; texel < 16; ++texel) {
-                ASSERT_EQ(positive(0, texel), reference::evaluate_unsigned_value(block.data(), texel))
-                    << first << ' ' << second << " texel " << texel;
-                ASSERT_EQ(with_sign(0, texel), reference::evaluate_signed_value(block.data(), texel))
-                    << first << ' ' << second << " texel " << texel;
+    on_every_simd([] {
+        for (uint32_t first = 0; first < 256; ++first) {
+            for (uint32_t second = 0; second < 256; ++second) {
+                const auto block = value_block(first, second, kEveryValueIndex);
+                const Decoded positive(Format::BC4Unorm, block.data()), with_sign(Format::BC4Snorm, block.data());
+                for (int texel = 0; texel < 16; ++texel) {
+                    ASSERT_EQ(positive(0, texel), reference::evaluate_unsigned_value(block.data(), texel))
+                        << first << ' ' << second << " texel " << texel;
+                    ASSERT_EQ(with_sign(0, texel), reference::evaluate_signed_value(block.data(), texel))
+                        << first << ' ' << second << " texel " << texel;
+                }
             }
         }
-    }
+    });
 }
 
 TEST(ValueBlocks, OfEveryFormatAgree) {
     std::mt19937_64 random(4);
-    for (int i = 0; i < 20000; ++i) {
-        std::array<std::byte, 16> block;
-        const uint64_t bits[2] = {random(), random()};
-        std::memcpy(block.data(), bits, 16);
-        const Decoded bc5(Format::BC5Unorm, block.data()), bc5s(Format::BC5Snorm, block.data()), bc3(Format::BC3Unorm, block.data());
+    const auto expect_agreement = [](const std::byte* block) {
+        const Decoded bc5(Format::BC5Unorm, block), bc5s(Format::BC5Snorm, block), bc3(Format::BC3Unorm, block);
         for (int texel = 0; texel < 16; ++texel) {
-            ASSERT_EQ(bc5(0, texel), reference::evaluate_unsigned_value(block.data(), texel));
-            ASSERT_EQ(bc5(1, texel), reference::evaluate_unsigned_value(block.data() + 8, texel));
-            ASSERT_EQ(bc5s(0, texel), reference::evaluate_signed_value(block.data(), texel));
-            ASSERT_EQ(bc5s(1, texel), reference::evaluate_signed_value(block.data() + 8, texel));
-            ASSERT_EQ(bc3(3, texel), reference::evaluate_unsigned_value(block.data(), texel));
+            ASSERT_EQ(bc5(0, texel), reference::evaluate_unsigned_value(block, texel));
+            ASSERT_EQ(bc5(1, texel), reference::evaluate_unsigned_value(block + 8, texel));
+            ASSERT_EQ(bc5s(0, texel), reference::evaluate_signed_value(block, texel));
+            ASSERT_EQ(bc5s(1, texel), reference::evaluate_signed_value(block + 8, texel));
+            ASSERT_EQ(bc3(3, texel), reference::evaluate_unsigned_value(block, texel));
             ASSERT_EQ(bc5(2, texel), (Fraction{0, 1}));
             ASSERT_EQ(bc5(3, texel), (Fraction{1, 1}));
         }
+    };
+    for (int i = 0; i < 20000 && !HasFatalFailure(); ++i) {
+        std::array<std::byte, 16> block;
+        const uint64_t bits[2] = {random(), random()};
+        std::memcpy(block.data(), bits, 16);
+        on_every_simd([&] { expect_agreement(block.data()); });
     }
 }
 
@@ -199,11 +212,13 @@ TEST(BlockCodec, WritesNoMoreThanSixteenTexels) {
     const std::array<std::byte, 16> block{};
     for (const FormatInfo& about : all_formats()) {
         if (!about.block_compressed) continue;
-        std::array<std::byte, 16 * 16 + 16> texels;
-        texels.fill(std::byte{0xA5});
-        decode_block(about.format, block.data(), texels.data());
-        const auto bytes = size_t(16 * bytes_per_texel(layout(about.format).storage));
-        for (size_t i = bytes; i < texels.size(); ++i) ASSERT_EQ(texels[i], std::byte{0xA5}) << about.name << " byte " << i;
+        on_every_simd([&] {
+            std::array<std::byte, 16 * 16 + 16> texels;
+            texels.fill(std::byte{0xA5});
+            decode_block(about.format, block.data(), texels.data());
+            const auto bytes = size_t(16 * bytes_per_texel(layout(about.format).storage));
+            for (size_t i = bytes; i < texels.size(); ++i) ASSERT_EQ(texels[i], std::byte{0xA5}) << about.name << " byte " << i;
+        });
     }
 }
 
