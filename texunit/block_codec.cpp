@@ -4,12 +4,32 @@
 #include "texunit/bc7.h"
 #include "texunit/bc_colour.h"
 #include "texunit/bc_ramp.h"
+#include "texunit/bc_rounded.h"
 
 #include <cassert>
 
 namespace rawtexel::texunit {
+namespace {
 
-BlockDecoder block_decoder(Format format) {
+BlockDecoder rounded_decoder(Format format, const RoundedDecoders& decoders) {
+    switch (format) {
+        using enum Format;
+        case BC1RgbUnorm:
+        case BC1RgbSrgb: return decoders.bc1_rgb;
+        case BC1RgbaUnorm:
+        case BC1RgbaSrgb: return decoders.bc1_rgba;
+        case BC2Unorm:
+        case BC2Srgb: return decoders.bc2;
+        case BC3Unorm:
+        case BC3Srgb: return decoders.bc3;
+        default: return block_decoder(format);
+    }
+}
+
+}  // namespace
+
+BlockDecoder block_decoder(Format format, BcRounding rounding) {
+    if (rounding != BcRounding::Exact) return rounded_decoder(format, rounded_decoders(rounding));
     switch (format) {
         using enum Format;
         case BC1RgbUnorm:
@@ -32,8 +52,8 @@ BlockDecoder block_decoder(Format format) {
     }
 }
 
-void decode_block(Format format, const std::byte* block, std::byte* texels) {
-    const BlockDecoder decode = block_decoder(format);
+void decode_block(Format format, const std::byte* block, std::byte* texels, BcRounding rounding) {
+    const BlockDecoder decode = block_decoder(format, rounding);
     assert(decode && "not a block-compressed format");
     decode(block, texels);
 }

@@ -32,6 +32,7 @@ class ContainerSource final : public TexelSource {
     Format format() const override { return texel_.format; }
     Shape shape() const override { return shape_; }
     uint64_t stored_bytes() const override { return image_bytes(texel_, shape_); }
+    BcRounding bc_rounding() const override { return texel_.rounding; }
 
     void decode_block(int level, int slice, int block_x, int block_y, std::byte* texels) override {
         assert(level >= 0 && level < shape_.levels && slice >= 0 && slice < slice_count(shape_, level));
@@ -89,6 +90,7 @@ class ReinterpretedSource final : public TexelSource {
     Format format() const override { return format_; }
     Shape shape() const override { return source_->shape(); }
     uint64_t stored_bytes() const override { return source_->stored_bytes(); }
+    BcRounding bc_rounding() const override { return source_->bc_rounding(); }
     void decode_block(int level, int slice, int block_x, int block_y, std::byte* texels) override {
         source_->decode_block(level, slice, block_x, block_y, texels);
     }
@@ -152,9 +154,9 @@ int checked_levels(const std::string& name, uint32_t levels, const Shape& shape)
     return std::max(1, int(levels));
 }
 
-void check_texture_bytes(const std::string& name, uint64_t bytes, const ContainerLimits& limits) {
-    if (bytes > limits.max_texture_bytes) {
-        refuse(name, std::to_string(bytes) + " bytes of texels; at most " + std::to_string(limits.max_texture_bytes) + " are allowed");
+void check_texture_bytes(const std::string& name, uint64_t bytes, const ContainerOptions& options) {
+    if (bytes > options.max_texture_bytes) {
+        refuse(name, std::to_string(bytes) + " bytes of texels; at most " + std::to_string(options.max_texture_bytes) + " are allowed");
     }
 }
 

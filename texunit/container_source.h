@@ -36,6 +36,6 @@ std::unique_ptr<TexelSource> make_container_source(const FileTexel& texel, const
 int checked_extent(const std::string& name, const char* axis, uint32_t extent);
 int checked_layers(const std::string& name, uint64_t layers);
 int checked_levels(const std::string& name, uint32_t levels, const Shape& shape);
-void check_texture_bytes(const std::string& name, uint64_t bytes, const ContainerLimits& limits);
+void check_texture_bytes(const std::string& name, uint64_t bytes, const ContainerOptions& options);
 
 }  // namespace rawtexel::texunit

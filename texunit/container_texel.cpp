@@ -1,6 +1,5 @@
 #include "texunit/container_texel.h"
 
-#include "texunit/bc_colour.h"
 #include "texunit/half.h"
 #include "texunit/little_endian.h"
 
@@ -76,15 +75,25 @@ void expand_rgb9e5(const FileTexel&, const std::byte* in, std::byte* out) {
     store(out, 3, uint16_t(0x3C00));
 }
 
+template <BcRounding rounding>
 void decode_rxgb(const std::byte* block, std::byte* texels) {
-    decode_bc3(block, texels);
-    const TexelLayout& from = layout(Format::BC3Unorm);
+    decode_block(Format::BC3Unorm, block, texels, rounding);
+    const TexelLayout& from = layout(Format::BC3Unorm, rounding);
     for (int i = 0; i < 16; ++i) {
         const auto word = load<uint64_t>(texels + 8 * i);
         const auto code = [&](int c) {
             return uint64_t{rescale(uint32_t(word >> from.shift[c]) & from.mask[c], uint32_t(from.denominator[c]), 0xFFFF)};
         };
         store(texels, i, code(3) | (code(1) << 16) | (code(2) << 32) | (uint64_t{0xFFFF} << 48));
+    }
+}
+
+BlockDecoder rxgb_decoder(BcRounding rounding) {
+    switch (rounding) {
+        case BcRounding::Ideal8: return decode_rxgb<BcRounding::Ideal8>;
+        case BcRounding::Nvidia: return decode_rxgb<BcRounding::Nvidia>;
+        case BcRounding::Amd: return decode_rxgb<BcRounding::Amd>;
+        default: return decode_rxgb<BcRounding::Exact>;
     }
 }
 
@@ -126,6 +135,16 @@ FileTexel srgb_texel(FileTexel texel) {
     return texel;
 }
 
+FileTexel rounded_texel(FileTexel texel, BcRounding rounding) {
+    if (has_bc_rounding(texel.format)) {
+        texel.decode = block_decoder(texel.format, rounding);
+        texel.rounding = rounding;
+    } else if (texel.decode == rxgb_decoder(BcRounding::Exact)) {
+        texel.decode = rxgb_decoder(rounding);
+    }
+    return texel;
+}
+
 FileTexel snorm16_texel(int channels) {
     assert(channels >= 1 && channels <= 4);
     const Format format = channels == 1 ? Format::R32Float : channels == 2 ? Format::RG32Float : Format::RGBA32Float;
@@ -150,6 +169,6 @@ FileTexel r11g11b10_float_texel() { return {.format = Format::RGBA16Half, .file_
 
 FileTexel rgb9e5_texel() { return {.format = Format::RGBA16Half, .file_bytes = 4, .expand = expand_rgb9e5}; }
 
-FileTexel rxgb_block() { return {.format = Format::RGBA16Unorm, .extent = 4, .file_bytes = 16, .decode = decode_rxgb}; }
+FileTexel rxgb_block() { return {.format = Format::RGBA16Unorm, .extent = 4, .file_bytes = 16, .decode = rxgb_decoder(BcRounding::Exact)}; }
 
 }  // namespace rawtexel::texunit

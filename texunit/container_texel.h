@@ -15,7 +15,8 @@ struct FileTexel {
     Format format = Format::RGBA8Unorm;  ///< what it is read as
     int extent = 1;                      ///< texels along x and y: 1, or 4 for blocks
     int file_bytes = 0;                  ///< of one texel or block in the file
-    BlockDecoder decode = nullptr;       ///< for blocks: to 16 texels of layout(format).storage
+    BlockDecoder decode = nullptr;       ///< for blocks: to 16 texels of layout(format, rounding)
+    BcRounding rounding = BcRounding::Exact;
     /// For texels that are not `format`'s own: writes info(format).bytes_per_block bytes. Null where the file's bytes are those.
     void (*expand)(const FileTexel& texel, const std::byte* in, std::byte* out) = nullptr;
     std::array<uint32_t, 4> mask{};  ///< of red, green, blue, alpha in a word of file_bytes, for texels made by field_texel
@@ -31,6 +32,9 @@ FileTexel field_texel(const std::array<uint32_t, 4>& mask, int file_bytes);
 bool valid_field_masks(const std::array<uint32_t, 4>& mask, int file_bytes);
 
 FileTexel srgb_texel(FileTexel texel);  ///< the same codes, sRGB-encoded
+
+/// The same blocks with colours of BC1, BC2 and BC3 rounded; other texels come back unchanged.
+FileTexel rounded_texel(FileTexel texel, BcRounding rounding);
 
 FileTexel snorm16_texel(int channels);                    ///< 1 to 4; read as floats
 FileTexel three_channel_texel(Format format_with_alpha);  ///< red, green, blue of a four-channel format, in the file without alpha

@@ -32,19 +32,20 @@ std::shared_ptr<ByteSource> open_memory(std::string name, std::vector<std::byte>
 enum class ContainerKind { None, Dds, Ktx2 };
 ContainerKind container_kind(const ByteSource& bytes);
 
-/// Limits against hostile files.
-struct ContainerLimits {
-    uint64_t max_texture_bytes = uint64_t{4} << 30;  ///< stored bytes after decompression
+/// How a file is opened.
+struct ContainerOptions {
+    uint64_t max_texture_bytes = uint64_t{4} << 30;  ///< a limit against hostile files: stored bytes after decompression
+    BcRounding bc_rounding = BcRounding::Exact;
 };
 
 /// Parse and check headers against the bytes that are really there; payload is read in pages when a block is first asked for, and
 /// kept. Texels of formats that are not texunit's own are read as the nearest that is: 8-bit and shorter channels exactly, channels of
 /// 3, 5, 6, 7 or 9 to 15 bits as 16-bit codes rounded to nearest, 16-bit signed codes as floats, shared-exponent and 10- and 11-bit
 /// floats as halves, exactly; luminance is spread over red, green and blue; RXGB's red comes from BC3's alpha.
-/// Throw TextureError: not that container, truncated, an extent of zero or above kMaxExtent, more than `limits` allows, a format or a
-/// supercompression that is not supported (named).
-std::unique_ptr<TexelSource> open_dds(std::shared_ptr<const ByteSource> bytes, const ContainerLimits& limits = {});
-std::unique_ptr<TexelSource> open_ktx2(std::shared_ptr<const ByteSource> bytes, const ContainerLimits& limits = {});
+/// Throw TextureError: not that container, truncated, an extent of zero or above kMaxExtent, more bytes than `options` allows, a format or
+/// a supercompression that is not supported (named).
+std::unique_ptr<TexelSource> open_dds(std::shared_ptr<const ByteSource> bytes, const ContainerOptions& options = {});
+std::unique_ptr<TexelSource> open_ktx2(std::shared_ptr<const ByteSource> bytes, const ContainerOptions& options = {});
 
 /// The same texels read as sRGB or as linear data, whatever the file declares; a source whose format has no such pair is returned as it is.
 std::unique_ptr<TexelSource> reinterpret_srgb(std::unique_ptr<TexelSource> source, bool srgb);

@@ -233,14 +233,15 @@ std::vector<LevelPlace> places(const Image& image, const std::shared_ptr<const B
 
 }  // namespace
 
-std::unique_ptr<TexelSource> open_dds(std::shared_ptr<const ByteSource> bytes, const ContainerLimits& limits) {
-    const Image image = read_image(*bytes);
+std::unique_ptr<TexelSource> open_dds(std::shared_ptr<const ByteSource> bytes, const ContainerOptions& options) {
+    Image image = read_image(*bytes);
+    image.texel = rounded_texel(image.texel, options.bc_rounding);
     const uint64_t needed = image_bytes(image.texel, image.shape), available = bytes->size() - image.data_offset;
     if (needed > available) {
         refuse(bytes->name(), "truncated: its format and extents need " + std::to_string(needed) + " bytes of texels, the file has " +
                                   std::to_string(available));
     }
-    check_texture_bytes(bytes->name(), needed, limits);
+    check_texture_bytes(bytes->name(), needed, options);
     std::shared_ptr<const ByteSource> payload = bytes;
     if (!bytes->in_memory()) payload = std::make_shared<PagedBytes>(bytes, image.data_offset, image.data_offset + needed);
     return make_container_source(image.texel, image.shape, places(image, payload));

@@ -146,6 +146,15 @@ TexelLayout bc3_layout(bool srgb) {
     return layout;
 }
 
+/// BC1, BC2 and BC3 with colours of 8 bits.
+TexelLayout rounded_layout(const FormatInfo& about, StorageClass storage) {
+    if (storage == StorageClass::Packed32) return about.srgb ? srgb8_layout(about.channels) : coded_layout(storage, about.channels, 8, 255);
+    TexelLayout layout = bc3_layout(false);
+    for (int c = 0; c < 3; ++c) set_field(layout, c, 16 * c, 0xFF, 255);
+    for (int c = 0; c < 3 && about.srgb; ++c) layout.table[c] = srgb8_table();
+    return layout;
+}
+
 TexelLayout make_layout(Format format) {
     const FormatInfo& about = info(format);
     switch (format) {
@@ -188,9 +197,21 @@ TexelLayout make_layout(Format format) {
     return {};
 }
 
-std::array<TexelLayout, kFormatCount> make_layouts() {
-    std::array<TexelLayout, kFormatCount> layouts;
+using Layouts = std::array<TexelLayout, kFormatCount>;
+
+Layouts make_layouts() {
+    Layouts layouts;
     for (const FormatInfo& about : kFormats) layouts[size_t(about.format)] = make_layout(about.format);
+    return layouts;
+}
+
+/// The layouts of all roundings but Exact, which differ in what they store and not in where.
+Layouts make_rounded_layouts() {
+    Layouts layouts = make_layouts();
+    for (const FormatInfo& about : kFormats) {
+        TexelLayout& layout = layouts[size_t(about.format)];
+        if (has_bc_rounding(about.format)) layout = rounded_layout(about, layout.storage);
+    }
     return layouts;
 }
 
@@ -223,10 +244,12 @@ uint64_t stored_bytes(Format format, int width, int height) {
     return blocks(width) * blocks(height) * uint64_t(about.bytes_per_block);
 }
 
-const TexelLayout& layout(Format format) {
-    static const std::array<TexelLayout, kFormatCount> layouts = make_layouts();
+const TexelLayout& layout(Format format, BcRounding rounding) {
+    static const Layouts exact = make_layouts(), rounded = make_rounded_layouts();
     assert(int(format) < kFormatCount);
-    return layouts[size_t(format)];
+    return (rounding == BcRounding::Exact ? exact : rounded)[size_t(format)];
 }
+
+bool has_bc_rounding(Format format) { return format >= BC1RgbUnorm && format <= BC3Srgb; }
 
 }  // namespace rawtexel::texunit

@@ -1,6 +1,8 @@
 // Texel formats: what a texel or a block holds in a file, and how it is stored once decoded.
 #pragma once
 
+#include "texunit/bc_rounding.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -92,6 +94,7 @@ uint64_t stored_bytes(Format format, int width, int height);
 /// Fields: 8- and 16-bit formats hold their codes, channel c at bit 8*c or 16*c. BC1 and BC2 hold R/186 at bit 0, G/378 at bit 8,
 /// B/186 at bit 17 (thirds and halves of 5- and 6-bit endpoints) and A/1 or A/15 at bit 25. BC3 holds the same colours and A/8925 in
 /// 16-bit fields; BC4 and BC5 hold n/8925 (fifths and sevenths of 8-bit endpoints: 255*35) or, signed, n/4445 (127*35).
+/// With their colours rounded, BC1 and BC2 hold 8-bit codes, and BC3 the same in 16-bit fields beside A/8925.
 struct TexelLayout {
     StorageClass storage;
     bool is_signed;
@@ -102,6 +105,10 @@ struct TexelLayout {
     int denominator[4];                       ///< the field that means 1.0; 0 for a channel that is not stored
 };
 
-const TexelLayout& layout(Format format);
+/// How blocks of `format` are stored once decoded. The storage class is the same whatever the rounding.
+const TexelLayout& layout(Format format, BcRounding rounding = BcRounding::Exact);
+
+/// Whether `rounding` can change what texels of `format` are: BC1, BC2 and BC3.
+bool has_bc_rounding(Format format);
 
 }  // namespace rawtexel::texunit

@@ -120,20 +120,21 @@ std::shared_ptr<const ByteSource> page(const std::shared_ptr<const ByteSource>& 
 
 }  // namespace
 
-std::unique_ptr<TexelSource> open_ktx2(std::shared_ptr<const ByteSource> bytes, const ContainerLimits& limits) {
+std::unique_ptr<TexelSource> open_ktx2(std::shared_ptr<const ByteSource> bytes, const ContainerOptions& options) {
     const std::string& name = bytes->name();
     const Header header = read_header(*bytes);
     if (const auto scheme = unsupported_scheme(header.scheme)) {
         refuse(name, "KTX2 supercompression is not supported: " + *scheme + "; none and Zstandard are");
     }
-    const std::optional<FileTexel> texel = vulkan_texel(header.vk_format);
-    if (!texel) refuse(name, "KTX2 format is not supported: " + describe_vulkan(header.vk_format));
+    const std::optional<FileTexel> stored = vulkan_texel(header.vk_format);
+    if (!stored) refuse(name, "KTX2 format is not supported: " + describe_vulkan(header.vk_format));
+    const FileTexel texel = rounded_texel(*stored, options.bc_rounding);
     const Shape shape = read_shape(name, header);
-    check_texture_bytes(name, image_bytes(*texel, shape), limits);
+    check_texture_bytes(name, image_bytes(texel, shape), options);
 
     const std::vector<LevelIndex> index = read_level_index(*bytes, shape.levels);
     for (int level = 0; level < shape.levels; ++level) {
-        check_level_size(name, level, index[size_t(level)], header.scheme, level_bytes(*texel, shape, level));
+        check_level_size(name, level, index[size_t(level)], header.scheme, level_bytes(texel, shape, level));
     }
     std::shared_ptr<const ByteSource> payload = bytes;
     if (header.scheme == kUncompressed && !bytes->in_memory()) payload = page(bytes, index);
@@ -141,7 +142,7 @@ std::unique_ptr<TexelSource> open_ktx2(std::shared_ptr<const ByteSource> bytes, 
     std::vector<LevelPlace> places;
     for (int level = 0; level < shape.levels; ++level) {
         const LevelIndex& at = index[size_t(level)];
-        const uint64_t slice = slice_bytes(*texel, level_extent(shape.width, level), level_extent(shape.height, level));
+        const uint64_t slice = slice_bytes(texel, level_extent(shape.width, level), level_extent(shape.height, level));
         if (header.scheme == kUncompressed) {
             places.push_back({payload, at.offset, slice});
         } else {
@@ -150,7 +151,7 @@ std::unique_ptr<TexelSource> open_ktx2(std::shared_ptr<const ByteSource> bytes, 
             places.push_back({std::move(inflated), 0, slice});
         }
     }
-    return make_container_source(*texel, shape, std::move(places));
+    return make_container_source(texel, shape, std::move(places));
 }
 
 }  // namespace rawtexel::texunit

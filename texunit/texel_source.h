@@ -46,9 +46,11 @@ class TexelSource {
     virtual Shape shape() const = 0;
     /// Bytes of the stored image, all its levels and layers, as the file or memory holds them.
     virtual uint64_t stored_bytes() const = 0;
+    /// How the colours of BC1, BC2 and BC3 are rounded when decoded.
+    virtual BcRounding bc_rounding() const { return BcRounding::Exact; }
 
     /// Decodes the 4x4 texels of block (`block_x`, `block_y`) of slice `slice` (array layer or depth slice) of `level` into
-    /// `texels`: 16 texels of layout(format()).storage, row by row. Texels outside the level repeat its last column and row.
+    /// `texels`: 16 texels of layout(format(), bc_rounding()), row by row. Texels outside the level repeat its last column and row.
     /// Throws TextureError when the file is damaged or unreadable.
     virtual void decode_block(int level, int slice, int block_x, int block_y, std::byte* texels) = 0;
 };

@@ -57,7 +57,7 @@ struct Texture::Maker {
     Maker(std::string texture_name, std::unique_ptr<TexelSource> texels, const TexelLayout& stored)
         : name(std::move(texture_name)),
           source(std::move(texels)),
-          source_layout(texunit::layout(source->format())),
+          source_layout(texunit::layout(source->format(), source->bc_rounding())),
           layout(stored),
           encoder(stored),
           shape(full_pyramid(name, source->shape())),
@@ -123,9 +123,10 @@ void Texture::Maker::average(Texture& texture, const BlockPosition& at, std::byt
 }
 
 Texture::Texture(std::string name, std::unique_ptr<TexelSource> source, const TextureOptions& options) {
-    const Format stored = options.mip_storage == MipStorage::Float ? Format::RGBA32Float : source->format();
+    const TexelLayout& stored =
+        options.mip_storage == MipStorage::Float ? layout(Format::RGBA32Float) : layout(source->format(), source->bc_rounding());
     try {
-        maker_ = std::make_unique<Maker>(name, std::move(source), layout(stored));
+        maker_ = std::make_unique<Maker>(name, std::move(source), stored);
         levels_ = maker_->levels;
         states_ = std::make_unique<BlockStates>(levels_.texels / kTexelsPerBlock);
     } catch (const std::bad_alloc&) {

@@ -23,9 +23,9 @@ constexpr uint32_t kAlphaPixels = 1, kAlpha = 2, kFourCc = 4, kRgb = 0x40, kLumi
 std::unique_ptr<TexelSource> open_bytes(Bytes bytes) { return open_dds(open_memory("test.dds", std::move(bytes))); }
 
 /// The message of the TextureError that opening throws; empty when it opens.
-std::string refusal(Bytes bytes, const ContainerLimits& limits = {}) {
+std::string refusal(Bytes bytes, const ContainerOptions& options = {}) {
     try {
-        open_dds(open_memory("test.dds", std::move(bytes)), limits);
+        open_dds(open_memory("test.dds", std::move(bytes)), options);
     } catch (const TextureError& error) {
         return error.what();
     }

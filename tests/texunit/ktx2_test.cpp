@@ -19,9 +19,9 @@ using test_files::StoredImage;
 
 std::unique_ptr<TexelSource> open_bytes(Bytes bytes) { return open_ktx2(open_memory("test.ktx2", std::move(bytes))); }
 
-std::string refusal(Bytes bytes, const ContainerLimits& limits = {}) {
+std::string refusal(Bytes bytes, const ContainerOptions& options = {}) {
     try {
-        open_ktx2(open_memory("test.ktx2", std::move(bytes)), limits);
+        open_ktx2(open_memory("test.ktx2", std::move(bytes)), options);
     } catch (const TextureError& error) {
         return error.what();
     }
