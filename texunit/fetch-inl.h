@@ -24,13 +24,21 @@ struct TexelWave {
     WaveFloat channel[4][n];
 };
 
-/// Index of every tap's texel (texunit/level_table.h). Slice 0: 2-D textures.
+/// Index of the first texel of lanes i .. 's slice and level (texunit/level_table.h). `slice` null: slice 0.
+HWY_INLINE hn::Vec<IntTag> slice_offset(const LevelTable& table, hn::Vec<IntTag> level, const WaveInt* slice, size_t i) {
+    const IntTag d;
+    const auto offset = look_up_level(d, table.offset, level);
+    if (slice == nullptr) return offset;
+    return hn::Add(offset, hn::Mul(hn::Load(d, slice->lane + i), look_up_level(d, table.slice_stride, level)));
+}
+
+/// Index of every tap's texel.
 template <StorageClass storage, int W>
 HWY_INLINE void tap_indices(const LevelTable& table, const TapWave<W>& taps, WaveInt (&index)[W * W]) {
     const IntTag d;
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto level = hn::Load(d, taps.level.lane + i);
-        const auto offset = look_up_level(d, table.offset, level);
+        const auto level = hn::Load(d, taps.level->lane + i);
+        const auto offset = slice_offset(table, level, taps.slice, i);
         const auto row_stride = look_up_level(d, table.row_stride, level);
         hn::Vec<IntTag> columns[W];
         for (int k = 0; k < W; ++k) columns[k] = hn::Add(offset, column_offset_v<storage>(hn::Load(d, taps.x[k].lane + i)));
@@ -259,12 +267,9 @@ HWY_INLINE void gather_float4(const std::byte* texels, const WaveInt (&index)[n]
     }
 }
 
-/// Ensures and gathers the texels of `taps`. All lanes are read: inactive ones repeat an active one (fill_inactive).
-template <StorageClass storage, int W>
-HWY_NOINLINE void fetch(Texture& texture, const TapWave<W>& taps, TexelWave<W * W>& out) {
-    WaveInt index[W * W];
-    tap_indices<storage>(texture.levels(), taps, index);
-    ensure(texture, taps.level, index);
+/// Gathers texels that are there.
+template <StorageClass storage, int n>
+HWY_INLINE void gather(const Texture& texture, const WaveInt (&index)[n], TexelWave<n>& out) {
     if constexpr (storage == StorageClass::Packed32) gather_packed32(texture.texel_layout(), texture.texels(), index, out);
     if constexpr (storage == StorageClass::Packed64) gather_packed64(texture.texel_layout(), texture.texels(), index, out);
     if constexpr (storage == StorageClass::Half4) gather_half4(texture.texels(), index, out);

@@ -1,4 +1,8 @@
-// What lookups asked for. Counting is a policy: the wave code is compiled once with FetchCounter and once with NoFetchCount.
+// What lookups asked for. Counting is a policy: the wave code is compiled once for each policy, and what one does not ask for costs nothing.
+//
+//   NoFetchCount    nothing: the plain path
+//   FetchCounter    sums, per texture and per pixel
+//   FetchRecorder   the same, and every tap by itself, to a TapSink: traces, fetch logs, cache models
 #pragma once
 
 #include "texunit/wave.h"
@@ -7,7 +11,10 @@
 
 namespace rawtexel::texunit {
 
-/// Demanded counts: what material and sampler ask for, independent of skips, threads and tile size.
+class Texture;
+
+/// Demanded counts: what material and sampler ask for, independent of skips, threads and tile size. Taps of weight 0 are not asked for; a
+/// tap that takes the border colour reads no texel and is not counted; a tap beyond the corner of a cube map is three.
 struct FetchCounts {
     uint64_t lookups = 0;            ///< one map asked at one shading point
     uint64_t taps = 0;               ///< taps weighed
@@ -17,16 +24,49 @@ struct FetchCounts {
     bool operator==(const FetchCounts&) const = default;
 };
 
+/// One tap of a wave. Every pointer has 32 lanes, of which only those of `lanes` mean anything.
+struct WaveTap {
+    WaveMask lanes;            ///< lanes that weigh it
+    WaveMask border;           ///< those of them that take the border colour and read nothing
+    const WaveInt* level;
+    const WaveInt* slice;      ///< array layer, 6*cube + face, or depth slice; null: slice 0
+    const WaveInt* x;          ///< texel of that level and slice as decoded,
+    const WaveInt* y;          ///< (texunit/level_table.h has its index)
+    const WaveFloat* weight;   ///< the product over the axes, never 0
+};
+
+/// Hears of every tap of every lookup. A lane's taps come by probe, finer level before coarser, slice, row and column. Its share of the
+/// lookup is the tap's weight times the level's times the probe's.
+class TapSink {
+  public:
+    virtual ~TapSink() = default;
+    /// The lookups of `lanes` in `texture` begin; one probe of weight 1 unless begin_probe says otherwise.
+    virtual void begin_lookup(const Texture& texture, WaveMask lanes) = 0;
+    /// Another probe begins, that weighs `weight`.
+    virtual void begin_probe(const WaveFloat& weight) = 0;
+    /// A level begins: the coarser one with weight `fraction`, or the finer one with 1 - `fraction`.
+    virtual void begin_level(const WaveFloat& fraction, bool coarser) = 0;
+    virtual void tap(const WaveTap& tap) = 0;
+};
+
 /// Counts nothing and costs nothing.
 struct NoFetchCount {
     static constexpr bool kCounts = false;
+    static constexpr bool kRecords = false;
 };
 
 /// One per worker and texture set; merged in any order, since sums of integers do not depend on it.
 struct FetchCounter {
     static constexpr bool kCounts = true;
+    static constexpr bool kRecords = false;
     FetchCounts* texture = nullptr;      ///< of the texture looked up now
     Wave<uint32_t>* pixel = nullptr;     ///< texels requested by each lane's pixel, added to; null where nobody asks
+};
+
+/// A FetchCounter that also tells a sink.
+struct FetchRecorder : FetchCounter {
+    static constexpr bool kRecords = true;
+    TapSink* sink = nullptr;   ///< never null
 };
 
 }  // namespace rawtexel::texunit

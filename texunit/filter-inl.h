@@ -1,5 +1,5 @@
 // The third stage of a lookup: the weighted mean of its texels.
-#include "texunit/fetch-inl.h"
+#include "texunit/fetch_edges-inl.h"
 
 #include <hwy/highway.h>
 
@@ -15,14 +15,6 @@ HWY_BEFORE_NAMESPACE();
 namespace rawtexel::texunit {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// Only halves and floats can hold infinities; everything else takes the shorter form.
-template <StorageClass storage, class V>
-HWY_INLINE V mix(V t, V a, V b) {
-    constexpr bool bounded = storage == StorageClass::Packed32 || storage == StorageClass::Packed64;
-    if constexpr (bounded) return lerp(t, a, b);
-    return lerp_unbounded(t, a, b);
-}
 
 /// One texel a lane: nothing to weigh.
 template <StorageClass storage>

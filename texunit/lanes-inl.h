@@ -38,22 +38,24 @@ HWY_INLINE WaveMask wave_mask(D d, hn::Mask<D> mask, size_t i) {
     return hn::Lanes(d) >= 32 ? low : (low & ((1u << hn::Lanes(d)) - 1)) << i;
 }
 
+/// Lanes of `from` outside `mask`, which is not 0, repeat its first one.
+template <class T>
+HWY_INLINE void repeat_first(const Wave<T>& from, WaveMask mask, Wave<T>& to) {
+    const hn::ScalableTag<T> d;
+    const auto repeated = hn::Set(d, from.lane[hwy::Num0BitsBelowLS1Bit_Nonzero32(mask)]);
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        hn::Store(hn::IfThenElse(lanes_of(d, mask, i), hn::Load(d, from.lane + i), repeated), d, to.lane + i);
+    }
+}
+
 /// Inactive lanes repeat the first active one, so that they read texels that are read anyway. `mask` is not 0.
 HWY_INLINE void fill_inactive(const WaveCoordinates& at, WaveMask mask, WaveCoordinates& filled) {
-    const FloatTag d;
-    const size_t first = size_t(hwy::Num0BitsBelowLS1Bit_Nonzero32(mask));
-    const auto fill = [&](const WaveFloat& from, WaveFloat& to) HWY_ATTR {
-        const auto repeated = hn::Set(d, from.lane[first]);
-        for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-            hn::Store(hn::IfThenElse(lanes_of(d, mask, i), hn::Load(d, from.lane + i), repeated), d, to.lane + i);
-        }
-    };
-    fill(at.u, filled.u);
-    fill(at.v, filled.v);
-    fill(at.dudx, filled.dudx);
-    fill(at.dvdx, filled.dvdx);
-    fill(at.dudy, filled.dudy);
-    fill(at.dvdy, filled.dvdy);
+    repeat_first(at.u, mask, filled.u);
+    repeat_first(at.v, mask, filled.v);
+    repeat_first(at.dudx, mask, filled.dudx);
+    repeat_first(at.dvdx, mask, filled.dvdx);
+    repeat_first(at.dudy, mask, filled.dudy);
+    repeat_first(at.dvdy, mask, filled.dvdy);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -15,12 +15,41 @@ struct WaveCoordinates {
     WaveFloat dudx, dvdx, dudy, dvdy;   ///< change of u, v over one pixel to the right, one pixel down
 };
 
-/// Samples 2-D `texture` at the lanes of `mask`; linear RGBA into `out`, whose other lanes are unspecified but initialised. Level of detail
-/// by D3D11.3 7.18.11 and Vulkan "Level-of-Detail Operation": lambda = log2(max(|d(s, t)/dx|, |d(s, t)/dy|)), s and t in texels of level 0.
-/// Precision: the texel-space fraction is good to 2^-23 at any extent, lambda to 2^-21; taps of weight 0 are neither read nor counted, and
-/// the result lies within the taps. The same bits on every instruction set; dispatches to the best one allowed (texunit/simd.h).
-/// `counts` null: nothing is counted. Throws TextureError when a block it needs is damaged.
+/// The same with three components: coordinates u, v, w of a volume, or a direction of any length into a cube map.
+struct WaveCoordinates3 {
+    WaveFloat position[3];
+    WaveFloat dx[3], dy[3];   ///< change over one pixel to the right, one pixel down
+};
+
+/// What a lookup may be asked for besides its colour.
+struct LookupExtras {
+    const WaveFloat* layer = nullptr;   ///< of an array: rounded to the nearest layer, ties to even, and kept within the array. Null: the first
+    FetchCounts* counts = nullptr;      ///< added to
+    TapSink* sink = nullptr;            ///< told of every tap
+    WaveFloat* lod = nullptr;           ///< gets lambda clamped to the levels there are
+};
+
+/// Samples 2-D `texture`, or a layer of an array, at the lanes of `mask`; linear RGBA into `out`, whose other lanes are unspecified but
+/// initialised. Level of detail by D3D11.3 7.18.11 and Vulkan "Level-of-Detail Operation". Kernels as texunit/kernel.h has them.
+/// Precision: with coordinates and texels taken as exact the result is within (taps + 8)*2^-24 of the largest texel read, and 2^-20 of it
+/// more where a level fraction enters; for kernels whose weights exceed 1, such as extreme Mitchell ones, times the sum of their weights'
+/// magnitudes. The texel-space fraction is good to 2^-24 at any extent, lambda to 2^-21. Taps of weight 0 are neither read nor counted.
+/// Nearest and (tri)linear results lie within the taps. The same bits on every instruction set; dispatches to the best one allowed
+/// (texunit/simd.h). Throws TextureError when a block it needs is damaged.
 void sample_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, WaveColor& out,
                  FetchCounts* counts = nullptr);
+void sample_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, WaveColor& out,
+                 const LookupExtras& extras);
+
+/// The same for a 3-D texture: SamplerState::wrap_r wraps the third coordinate, every kernel filters along three axes, lambda follows from
+/// derivatives of three components (Vulkan "Scale Factor Operation"). Isotropic: `probes` and `ellipse` are not looked at.
+void sample_volume_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates3& at, WaveMask mask, WaveColor& out,
+                        const LookupExtras& extras = {});
+
+/// The same for a cube map, or with `layer` for one cube of an array. Faces in the order and orientation of D3D and Vulkan; where components
+/// tie Z beats Y beats X; derivatives by the quotient rule. Wraps are not looked at: beyond an edge comes the neighbouring face, straight on
+/// across as many faces as a kernel reaches, and a tap beyond a corner is the mean of the three texels that meet there. Isotropic.
+void sample_cube_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates3& directions, WaveMask mask, WaveColor& out,
+                      const LookupExtras& extras = {});
 
 }  // namespace rawtexel::texunit

@@ -1,5 +1,5 @@
 // The first stage of a lookup: which texels, and how much of each. Needs the texture's shape and the sampler, never its texels, so one
-// selection serves every map of a material that shares both.
+// selection serves every map of a material that shares both. Here the kernels of one and two taps an axis; wide_taps-inl.h has the others.
 #include "texunit/address-inl.h"
 #include "texunit/lanes-inl.h"
 #include "texunit/math-inl.h"
@@ -23,28 +23,46 @@ namespace hn = hwy::HWY_NAMESPACE;
 struct WavePosition {
     const WaveFloat* u;
     const WaveFloat* v;
+    const WaveInt* slice = nullptr;     ///< array layer, or 6*cube + face; null: slice 0
+    const WaveFloat* w = nullptr;       ///< third coordinate, of volumes only
+    const WaveFloat* u_rest = nullptr;  ///< cube maps only: what rounding took from u,
+    const WaveFloat* v_rest = nullptr;  ///< and from v, which are coordinates on the face
+
+    bool cube() const { return u_rest != nullptr; }
 };
 
-/// Texels along both axes that a kernel of `W` taps an axis covers, indices already wrapped. Lane by lane, tap (i, j) is the texel
-/// (x[i], y[j]). For W = 2 its weights along x are 1 - fraction_x and fraction_x; where a fraction is 0 the second index repeats the first.
+/// What an index outside the texture means: a Wrap, or for cube maps a texel of another face.
+enum class EdgeRule { Repeat, MirroredRepeat, ClampToEdge, ClampToBorder, MirrorOnce, CubeEdge };
+constexpr EdgeRule edge_rule(Wrap wrap) { return EdgeRule(wrap); }
+static_assert(edge_rule(Wrap::Repeat) == EdgeRule::Repeat && edge_rule(Wrap::MirrorOnce) == EdgeRule::MirrorOnce);
+
+/// Texels along both axes that a kernel of `W` taps an axis covers. Lane by lane, tap (i, j) is the texel (x[i], y[j]). For W = 2 its
+/// weights along x are 1 - fraction_x and fraction_x; where a fraction is 0 the second index repeats the first. Indices are wrapped, but
+/// those of cube maps may be -1 or the extent.
 template <int W>
 struct TapWave {
-    WaveInt level;
+    const WaveInt* level;
+    const WaveInt* slice;  ///< null: slice 0
     WaveInt x[W], y[W];
-    WaveFloat fraction_x, fraction_y;   ///< [0, 1), W = 2 only
+    WaveFloat fraction_x, fraction_y;      ///< [0, 1), W = 2 only
+    WaveMask outside_x[W], outside_y[W];   ///< lanes whose index is beyond an edge of a border or a cube map; unset unless `leaves`
+    bool leaves = false;                   ///< some bit of those is set
 };
 
+/// Coordinates are limited to this many widths of the texture on either side: farther off even the widest kernel reads the edge alone.
+inline constexpr float kFarthestCoordinate = 80.0f;
+
 /// `coordinate` with its whole periods taken away, which is exact: u - trunc(u) for repeat, in (-1, 1); the remainder by 2 for mirrored
-/// repeat, in (-2, 2). Clamped coordinates are limited to [-10, 10] as D3D11.3 7.18.6 does: still far outside. Not finite reads as 0.
-template <Wrap wrap, class V>
+/// repeat, in (-2, 2). Not finite reads as 0.
+template <EdgeRule rule, class V>
 HWY_INLINE V reduce_range(V coordinate) {
     const hn::DFromV<V> d;
     const V u = hn::IfThenElseZero(hn::IsFinite(coordinate), coordinate);
-    if constexpr (wrap == Wrap::Repeat) return hn::Sub(u, hn::Trunc(u));
-    if constexpr (wrap == Wrap::MirroredRepeat) {
+    if constexpr (rule == EdgeRule::Repeat) return hn::Sub(u, hn::Trunc(u));
+    if constexpr (rule == EdgeRule::MirroredRepeat) {
         return hn::Sub(u, hn::Mul(hn::Set(d, 2.0f), hn::Trunc(hn::Mul(u, hn::Set(d, 0.5f)))));
     }
-    return hn::Min(hn::Max(u, hn::Set(d, -10.0f)), hn::Set(d, 10.0f));
+    return hn::Min(hn::Max(u, hn::Set(d, -kFarthestCoordinate)), hn::Set(d, kFarthestCoordinate));
 }
 
 /// A texel-space coordinate as integer + remainder, |remainder| <= 1/2 (and a little where rounding of the product crosses it), exact but
@@ -57,6 +75,47 @@ HWY_INLINE void scale_coordinate(V reduced, V extent, V& integer, V& remainder) 
     remainder = hn::Add(hn::Sub(high, integer), low);
 }
 
+/// Coordinates of one axis for the wave: where and how exactly they are read.
+struct AxisCoordinates {
+    const WaveFloat* coordinate;
+    const WaveFloat* rest;                     ///< what rounding took from `coordinate`, or null
+    const std::array<int32_t, 16>* extents;    ///< of the axis, by level
+    Precision precision;
+};
+
+/// The texel-space coordinates of lanes i .. in a level `extent` texels wide. Precision::Gpu keeps 8 fractional bits (D3D11.3 7.18.8).
+template <EdgeRule rule>
+HWY_INLINE void locate(const AxisCoordinates& axis, hn::Vec<FloatTag> extent, size_t i, hn::Vec<FloatTag>& integer,
+                       hn::Vec<FloatTag>& remainder) {
+    const FloatTag d;
+    scale_coordinate(reduce_range<rule>(hn::Load(d, axis.coordinate->lane + i)), extent, integer, remainder);
+    if constexpr (rule == EdgeRule::CubeEdge) {
+        remainder = hn::Add(remainder, hn::Mul(hn::Load(d, axis.rest->lane + i), extent));
+    }
+    if (axis.precision == Precision::Gpu) {
+        remainder = hn::Mul(round_small(hn::Mul(remainder, hn::Set(d, 256.0f))), hn::Set(d, 1.0f / 256.0f));
+    }
+}
+
+/// floor(coordinate), the texel that holds it, relative to `integer`.
+template <class V>
+HWY_INLINE V nearest_texel(V remainder) {
+    const hn::DFromV<V> d;
+    return hn::IfThenElseZero(remainder < hn::Zero(d), hn::Set(d, -1.0f));
+}
+
+/// floor and fraction of coordinate - 1/2 = (integer - 1) + (remainder + 1/2): the texel whose centre is the last one before the
+/// coordinate, relative to `integer`, and how far beyond it the coordinate lies, [0, 1). The second sum hardly leaves [0, 1].
+template <class V>
+HWY_INLINE void split_between_centres(V remainder, V& first, V& fraction) {
+    const hn::DFromV<V> d;
+    const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    const V raised = hn::Add(remainder, hn::Set(d, 0.5f));
+    const V step = hn::Sub(hn::IfThenElseZero(raised >= one, one), hn::IfThenElseZero(raised < zero, one));
+    first = hn::Sub(step, one);
+    fraction = hn::Min(hn::Sub(raised, step), hn::Set(d, 1.0f - 0x1p-24f));
+}
+
 /// Wraps index i, -2*extent - 1 <= i <= 2*extent for repeating modes, as an integer: into [0, extent), or for mirrored repeat into the
 /// unfolded period [0, 2*extent).
 template <class V>
@@ -67,80 +126,134 @@ HWY_INLINE V wrap_period(V i, V period) {
     return hn::IfThenElse(i < period, i, hn::Sub(i, period));
 }
 
+constexpr bool repeats(EdgeRule rule) { return rule == EdgeRule::Repeat || rule == EdgeRule::MirroredRepeat; }
+
+/// Texel of `place` within a period of a repeating mode: the second half of a mirrored period runs backwards.
+template <EdgeRule rule, class V>
+HWY_INLINE V fold_period(V place, V period) {
+    if constexpr (rule == EdgeRule::Repeat) return place;
+    return hn::Min(place, hn::Sub(hn::Sub(period, hn::Set(hn::DFromV<V>(), 1)), place));
+}
+
+/// Texel of index i under the modes that do not repeat (Vulkan "Wrapping Operation").
+template <EdgeRule rule, class V>
+HWY_INLINE V limit_index(V i, V extent) {
+    const hn::DFromV<V> d;
+    if constexpr (rule == EdgeRule::CubeEdge) return i;
+    // -1 - i reflects about the edge at 0.
+    if constexpr (rule == EdgeRule::MirrorOnce) i = hn::Max(i, hn::Not(i));
+    return hn::Min(hn::Max(i, hn::Zero(d)), hn::Sub(extent, hn::Set(d, 1)));
+}
+
 /// Texel indices of the taps i, i + 1, … along one axis of `extent` texels.
-template <Wrap wrap, int W, class V>
+template <EdgeRule rule, int W, class V>
 HWY_INLINE void wrap_indices(V i, V extent, V (&index)[W]) {
     const hn::DFromV<V> d;
-    const V zero = hn::Zero(d), one = hn::Set(d, 1);
-    if constexpr (wrap == Wrap::ClampToEdge) {
-        const V last = hn::Sub(extent, one);
-        for (int k = 0; k < W; ++k) index[k] = hn::Min(hn::Max(hn::Add(i, hn::Set(d, k)), zero), last);
+    if constexpr (!repeats(rule)) {
+        for (int k = 0; k < W; ++k) index[k] = limit_index<rule>(hn::Add(i, hn::Set(d, k)), extent);
         return;
     }
-    const V period = wrap == Wrap::MirroredRepeat ? hn::Add(extent, extent) : extent;
+    const V period = rule == EdgeRule::MirroredRepeat ? hn::Add(extent, extent) : extent;
     V place = wrap_period(i, period);
     for (int k = 0; k < W; ++k) {
-        // The second half of a mirrored period runs backwards.
-        index[k] = wrap == Wrap::MirroredRepeat ? hn::Min(place, hn::Sub(hn::Sub(period, one), place)) : place;
-        place = hn::Add(place, one);
-        place = hn::IfThenElse(place < period, place, zero);
+        index[k] = fold_period<rule>(place, period);
+        place = hn::Add(place, hn::Set(d, 1));
+        place = hn::IfThenElse(place < period, place, hn::Zero(d));
     }
 }
 
-/// Taps along one axis. `nearest`: lanes that take one texel, embedded in a wider kernel with fraction 0.
-template <Wrap wrap, int W>
-HWY_NOINLINE void select_axis_as(const WaveFloat& coordinate, const std::array<int32_t, 16>& extents, const WaveInt& level,
-                                 WaveMask nearest, WaveInt (&index)[W], WaveFloat& fraction) {
+/// Rules that ask whether an index is beyond an edge, and the question.
+constexpr bool can_leave(EdgeRule rule) { return rule == EdgeRule::ClampToBorder || rule == EdgeRule::CubeEdge; }
+template <class V>
+HWY_INLINE hn::Mask<hn::DFromV<V>> beyond_edges(V index, V extent) {
+    return hn::Or(index < hn::Zero(hn::DFromV<V>()), hn::Not(index < extent));
+}
+
+/// Taps along one axis. `nearest`: lanes that take one texel, embedded in a wider kernel with fraction 0. `outside` gets the lanes beyond
+/// the edges where the rule can leave.
+template <EdgeRule rule, int W>
+HWY_NOINLINE void select_axis_as(const AxisCoordinates& axis, const WaveInt& level, WaveMask nearest, WaveInt (&index)[W],
+                                 WaveFloat& fraction, WaveMask (&outside)[W]) {
     const FloatTag d;
     const IntTag di;
-    const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
+    const auto zero = hn::Zero(d);
+    if constexpr (can_leave(rule)) std::fill(outside, outside + W, WaveMask{0});
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto extent = look_up_level(di, extents, hn::Load(di, level.lane + i));
+        const auto extent = look_up_level(di, *axis.extents, hn::Load(di, level.lane + i));
         hn::Vec<FloatTag> integer, remainder;
-        scale_coordinate(reduce_range<wrap>(hn::Load(d, coordinate.lane + i)), hn::ConvertTo(d, extent), integer, remainder);
+        locate<rule>(axis, hn::ConvertTo(d, extent), i, integer, remainder);
 
-        // Nearest takes the texel that holds the coordinate.
-        auto first = hn::Add(integer, hn::IfThenElseZero(remainder < zero, hn::Set(d, -1.0f)));
+        auto first = nearest_texel(remainder);
         if constexpr (W == 2) {
-            // Bilinear: floor and fraction of coordinate - 1/2 = (integer - 1) + (remainder + 1/2); the second sum hardly leaves [0, 1].
-            const auto raised = hn::Add(remainder, half);
-            const auto step = hn::Sub(hn::IfThenElseZero(raised >= one, one), hn::IfThenElseZero(raised < zero, one));
-            const auto largest = hn::Set(d, 1.0f - 0x1p-24f);
-            const auto part = hn::Min(hn::Sub(raised, step), largest);
             const auto single = lanes_of(d, nearest, i);
-            first = hn::IfThenElse(single, first, hn::Add(hn::Sub(integer, one), step));
+            hn::Vec<FloatTag> before, part;
+            split_between_centres(remainder, before, part);
+            first = hn::IfThenElse(single, first, before);
             hn::Store(hn::IfThenElse(single, zero, part), d, fraction.lane + i);
         }
 
+        auto start = hn::ConvertTo(di, hn::Add(integer, first));
+        if constexpr (rule == EdgeRule::CubeEdge) {
+            // One texel never leaves the face: a coordinate of 1 belongs to the last.
+            const auto single = hn::RebindMask(di, W == 1 ? hn::FirstN(d, hn::Lanes(d)) : lanes_of(d, nearest, i));
+            start = hn::IfThenElse(single, limit_index<EdgeRule::ClampToEdge>(start, extent), start);
+        }
         hn::Vec<IntTag> indices[W];
-        wrap_indices<wrap>(hn::ConvertTo(di, first), extent, indices);
+        wrap_indices<rule>(start, extent, indices);
+        if constexpr (can_leave(rule)) {
+            for (int k = 0; k < W; ++k) outside[k] |= wave_mask(di, beyond_edges(hn::Add(start, hn::Set(di, k)), extent), i);
+        }
         if constexpr (W == 2) {
             const auto unused = hn::RebindMask(di, hn::Eq(hn::Load(d, fraction.lane + i), zero));
             indices[1] = hn::IfThenElse(unused, indices[0], indices[1]);
+            if constexpr (can_leave(rule)) {
+                const WaveMask repeating = wave_mask(di, unused, i);
+                outside[1] = (outside[1] & ~repeating) | (outside[0] & repeating);
+            }
         }
         for (int k = 0; k < W; ++k) hn::Store(indices[k], di, index[k].lane + i);
     }
 }
 
+/// Returns whether some lane's tap is beyond an edge; `outside` is set only then.
 template <int W>
-HWY_INLINE void select_axis(Wrap wrap, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents, const WaveInt& level,
-                            WaveMask nearest, WaveInt (&index)[W], WaveFloat& fraction) {
-    switch (wrap) {
-        case Wrap::Repeat: return select_axis_as<Wrap::Repeat>(coordinate, extents, level, nearest, index, fraction);
-        case Wrap::MirroredRepeat: return select_axis_as<Wrap::MirroredRepeat>(coordinate, extents, level, nearest, index, fraction);
-        case Wrap::ClampToEdge:
-        case Wrap::ClampToBorder:
-        case Wrap::MirrorOnce: return select_axis_as<Wrap::ClampToEdge>(coordinate, extents, level, nearest, index, fraction);
+HWY_INLINE bool select_axis(EdgeRule rule, const AxisCoordinates& axis, const WaveInt& level, WaveMask nearest, WaveInt (&index)[W],
+                            WaveFloat& fraction, WaveMask (&outside)[W]) {
+    const auto any = [&] {
+        WaveMask lanes = 0;
+        for (const WaveMask mask : outside) lanes |= mask;
+        return lanes != 0;
+    };
+    switch (rule) {
+        case EdgeRule::Repeat: select_axis_as<EdgeRule::Repeat>(axis, level, nearest, index, fraction, outside); return false;
+        case EdgeRule::MirroredRepeat:
+            select_axis_as<EdgeRule::MirroredRepeat>(axis, level, nearest, index, fraction, outside);
+            return false;
+        case EdgeRule::ClampToEdge: select_axis_as<EdgeRule::ClampToEdge>(axis, level, nearest, index, fraction, outside); return false;
+        case EdgeRule::MirrorOnce: select_axis_as<EdgeRule::MirrorOnce>(axis, level, nearest, index, fraction, outside); return false;
+        case EdgeRule::ClampToBorder: select_axis_as<EdgeRule::ClampToBorder>(axis, level, nearest, index, fraction, outside); return any();
+        case EdgeRule::CubeEdge: select_axis_as<EdgeRule::CubeEdge>(axis, level, nearest, index, fraction, outside); return any();
     }
+    return false;
 }
+
+/// The rules of a texture's two axes at `at`.
+HWY_INLINE EdgeRule rule_of(const WavePosition& at, Wrap wrap) { return at.cube() ? EdgeRule::CubeEdge : edge_rule(wrap); }
 
 /// The taps of one level per lane, for all lanes.
 template <int W>
 HWY_INLINE void select_taps(const LevelTable& table, const SamplerState& sampler, const WavePosition& at, const WaveInt& level,
                             WaveMask nearest, TapWave<W>& taps) {
-    taps.level = level;
-    select_axis(sampler.wrap_s, *at.u, table.width, level, nearest, taps.x, taps.fraction_x);
-    select_axis(sampler.wrap_t, *at.v, table.height, level, nearest, taps.y, taps.fraction_y);
+    taps.level = &level;
+    taps.slice = at.slice;
+    const bool leaves_x = select_axis(rule_of(at, sampler.wrap_s), {at.u, at.u_rest, &table.width, sampler.precision}, level, nearest,
+                                      taps.x, taps.fraction_x, taps.outside_x);
+    const bool leaves_y = select_axis(rule_of(at, sampler.wrap_t), {at.v, at.v_rest, &table.height, sampler.precision}, level, nearest,
+                                      taps.y, taps.fraction_y, taps.outside_y);
+    taps.leaves = leaves_x || leaves_y;
+    if (!taps.leaves) return;
+    if (!leaves_x) std::fill(taps.outside_x, taps.outside_x + W, WaveMask{0});
+    if (!leaves_y) std::fill(taps.outside_y, taps.outside_y + W, WaveMask{0});
 }
 
 }  // namespace HWY_NAMESPACE

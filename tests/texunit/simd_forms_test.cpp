@@ -16,6 +16,7 @@
 #define HWY_TARGET_INCLUDE "tests/texunit/simd_forms_test.cpp"
 #include <hwy/foreach_target.h>
 
+#include "texunit/math-inl.h"
 #include "texunit/random-inl.h"
 #include "texunit/sample-inl.h"
 

@@ -1,0 +1,162 @@
+// One lookup for a wave on this instruction set, from coordinates to colour: the definitions behind texunit/sample-inl.h.
+#include "texunit/cube-inl.h"
+#include "texunit/sample_levels-inl.h"
+
+#include <hwy/highway.h>
+
+// Included once per instruction set (highway's guard for -inl.h files).
+#if defined(RAWTEXEL_TEXUNIT_SAMPLE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAWTEXEL_TEXUNIT_SAMPLE_LANES_INL_H_
+#undef RAWTEXEL_TEXUNIT_SAMPLE_LANES_INL_H_
+#else
+#define RAWTEXEL_TEXUNIT_SAMPLE_LANES_INL_H_
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace rawtexel::texunit {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The array layer nearest to each lane's coordinate, ties to even, within the array (Vulkan "Array Layer Selection"). Not a number is 0.
+HWY_NOINLINE inline void select_layers(const WaveFloat& layer, WaveMask mask, int layers, WaveInt& slice) {
+    const FloatTag d;
+    const IntTag di;
+    WaveFloat filled;
+    repeat_first(layer, mask, filled);
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        const auto a = hn::Load(d, filled.lane + i);
+        const auto number = hn::IfThenZeroElse(hn::IsNaN(a), a);
+        const auto within = hn::Min(hn::Max(number, hn::Zero(d)), hn::Set(d, float(layers - 1)));
+        hn::Store(hn::ConvertTo(di, round_small(within)), di, slice.lane + i);
+    }
+}
+
+/// One kernel and no levels: lambda decides nothing.
+HWY_INLINE bool needs_no_level(const SamplerState& sampler, const WaveFloat* lod) {
+    return sampler.mip == MipMode::None && sampler.magnify == sampler.minify && lod == nullptr;
+}
+
+HWY_INLINE void choose_levels(const Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, LevelChoice& choice,
+                              WaveFloat* lod) {
+    if (needs_no_level(sampler, lod)) return choose_base_level(choice);
+    select_levels(texture.levels(), sampler, at, choice);
+    if (lod != nullptr) *lod = choice.lod;
+}
+
+/// Nobody asks: nothing is read.
+HWY_INLINE void answer_empty_mask(WaveColor& out, WaveFloat* lod) {
+    out = {};
+    if (lod != nullptr) *lod = {};
+}
+
+template <class Count>
+HWY_NOINLINE void sample_lanes(Texture& texture, const SamplerState& sampler, const WaveCoordinates& coordinates, WaveMask mask,
+                               Count& count, WaveColor& out, WaveFloat* lod, const WaveFloat* layer) {
+    if (mask == 0) return answer_empty_mask(out, lod);
+    WaveCoordinates filled;
+    if (mask != kWaveFull) fill_inactive(coordinates, mask, filled);
+    const WaveCoordinates& at = mask == kWaveFull ? coordinates : filled;
+
+    LevelChoice choice;
+    choose_levels(texture, sampler, at, choice, lod);
+    WavePosition position{&at.u, &at.v};
+    WaveInt slice;
+    if (layer != nullptr) {
+        select_layers(*layer, mask, texture.shape().layers, slice);
+        position.slice = &slice;
+    }
+    count_lookups(texture, mask, count);
+    sample_levels(texture, sampler, position, choice, mask, count, out);
+}
+
+HWY_INLINE void fill_inactive(const WaveCoordinates3& at, WaveMask mask, WaveCoordinates3& filled) {
+    for (int axis = 0; axis < 3; ++axis) {
+        repeat_first(at.position[axis], mask, filled.position[axis]);
+        repeat_first(at.dx[axis], mask, filled.dx[axis]);
+        repeat_first(at.dy[axis], mask, filled.dy[axis]);
+    }
+}
+
+/// Derivatives along one texture axis that ask for the same level as those of a volume along three: the length of each derivative, or for
+/// LodRule::Exact the longer axis of the ellipse that both span.
+HWY_NOINLINE inline void flatten_derivatives(const LevelTable& table, LodRule rule, const WaveCoordinates3& at, WaveCoordinates& flat) {
+    const FloatTag d;
+    const auto zero = hn::Zero(d), half = hn::Set(d, 0.5f);
+    const float extents[3] = {float(table.width[0]), float(table.height[0]), float(table.depth[0])};
+    const auto width = hn::Set(d, extents[0]), height = hn::Set(d, extents[1]);
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        auto xx = zero, xy = zero, yy = zero;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto extent = hn::Set(d, extents[axis]);
+            const auto x = hn::Mul(hn::Load(d, at.dx[axis].lane + i), extent), y = hn::Mul(hn::Load(d, at.dy[axis].lane + i), extent);
+            xx = hn::Add(xx, hn::Mul(x, x));
+            xy = hn::Add(xy, hn::Mul(x, y));
+            yy = hn::Add(yy, hn::Mul(y, y));
+        }
+        auto rho_x = hn::Sqrt(xx), rho_y = hn::Sqrt(yy);
+        if (rule == LodRule::Exact) {
+            // The larger eigenvalue of the derivatives' Gram matrix.
+            const auto middle = hn::Mul(half, hn::Add(xx, yy)), difference = hn::Mul(half, hn::Sub(xx, yy));
+            rho_x = hn::Sqrt(hn::Add(middle, hn::Sqrt(hn::Add(hn::Mul(difference, difference), hn::Mul(xy, xy)))));
+            rho_y = zero;
+        }
+        hn::Store(hn::Div(rho_x, width), d, flat.dudx.lane + i);
+        hn::Store(zero, d, flat.dvdx.lane + i);
+        hn::Store(zero, d, flat.dudy.lane + i);
+        hn::Store(hn::Div(rho_y, height), d, flat.dvdy.lane + i);
+    }
+}
+
+/// Volumes and cube maps are sampled by one isotropic probe.
+HWY_INLINE SamplerState isotropic(SamplerState sampler) {
+    sampler.probes = 1;
+    sampler.ellipse = 0;
+    return sampler;
+}
+
+template <class Count>
+HWY_NOINLINE void sample_volume_lanes(Texture& texture, const SamplerState& sampler, const WaveCoordinates3& coordinates, WaveMask mask,
+                                      Count& count, WaveColor& out, WaveFloat* lod) {
+    if (mask == 0) return answer_empty_mask(out, lod);
+    WaveCoordinates3 at;
+    fill_inactive(coordinates, mask, at);
+    const SamplerState state = isotropic(sampler);
+    LevelChoice choice;
+    WaveCoordinates flat{at.position[0], at.position[1], {}, {}, {}, {}};
+    if (!needs_no_level(state, lod)) flatten_derivatives(texture.levels(), state.lod_rule, at, flat);
+    choose_levels(texture, state, flat, choice, lod);
+    count_lookups(texture, mask, count);
+    sample_levels(texture, state, {.u = &at.position[0], .v = &at.position[1], .w = &at.position[2]}, choice, mask, count, out);
+}
+
+template <class Count>
+HWY_NOINLINE void sample_cube_lanes(Texture& texture, const SamplerState& sampler, const WaveCoordinates3& directions, WaveMask mask,
+                                    Count& count, WaveColor& out, WaveFloat* lod, const WaveFloat* layer) {
+    if (mask == 0) return answer_empty_mask(out, lod);
+    WaveCoordinates3 at;
+    fill_inactive(directions, mask, at);
+    CubeCoordinates cube;
+    project_onto_faces(at, cube);
+    if (layer != nullptr) {
+        const IntTag d;
+        WaveInt first;
+        select_layers(*layer, mask, texture.shape().layers / 6, first);
+        for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+            const auto faces = hn::Mul(hn::Load(d, first.lane + i), hn::Set(d, 6));
+            hn::Store(hn::Add(hn::Load(d, cube.slice.lane + i), faces), d, cube.slice.lane + i);
+        }
+    }
+    const SamplerState state = isotropic(sampler);
+    LevelChoice choice;
+    choose_levels(texture, state, cube.face, choice, lod);
+    count_lookups(texture, mask, count);
+    const WavePosition position{
+        .u = &cube.face.u, .v = &cube.face.v, .slice = &cube.slice, .u_rest = &cube.u_rest, .v_rest = &cube.v_rest};
+    sample_levels(texture, state, position, choice, mask, count, out);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rawtexel::texunit
+HWY_AFTER_NAMESPACE();
+
+#endif  // RAWTEXEL_TEXUNIT_SAMPLE_LANES_INL_H_

@@ -1,0 +1,335 @@
+// The weighted mean over the taps of a kernel of any width: texels are gathered, unpacked and weighed tap by tap, sums stay in registers.
+#include "texunit/fetch_edges-inl.h"
+#include "texunit/wide_taps-inl.h"
+
+#include <hwy/highway.h>
+
+// Included once per instruction set (highway's guard for -inl.h files).
+#if defined(RAWTEXEL_TEXUNIT_WIDE_FILTER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAWTEXEL_TEXUNIT_WIDE_FILTER_INL_H_
+#undef RAWTEXEL_TEXUNIT_WIDE_FILTER_INL_H_
+#else
+#define RAWTEXEL_TEXUNIT_WIDE_FILTER_INL_H_
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace rawtexel::texunit {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The taps of one level: columns, rows and, of volumes, slices.
+struct WideTaps {
+    const WaveInt* level;
+    const WaveInt* slice;   ///< of everything but volumes; null: slice 0
+    bool cube, volume;
+    AxisTaps x, y, z;       ///< z of volumes only
+
+    bool leaves() const { return x.leaves || y.leaves || (volume && z.leaves); }
+};
+
+/// The terms of a tap's index (texunit/level_table.h): column + row + slice.
+struct TapOffsets {
+    WaveInt column[kMostAxisTaps], row[kMostAxisTaps], slice[kMostAxisTaps];
+    int slices = 1;
+};
+
+template <StorageClass storage>
+HWY_NOINLINE void tap_offsets(const LevelTable& table, const WideTaps& taps, TapOffsets& offsets) {
+    const IntTag d;
+    offsets.slices = taps.volume ? taps.z.count : 1;
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        const auto level = hn::Load(d, taps.level->lane + i);
+        const auto row_stride = look_up_level(d, table.row_stride, level);
+        const auto base = slice_offset(table, level, taps.volume ? nullptr : taps.slice, i);
+        hn::Store(base, d, offsets.slice[0].lane + i);
+        for (int k = 0; k < taps.x.count; ++k) {
+            hn::Store(column_offset_v<storage>(hn::Load(d, taps.x.texel[k].lane + i)), d, offsets.column[k].lane + i);
+        }
+        for (int j = 0; j < taps.y.count; ++j) {
+            hn::Store(row_offset_v<storage>(hn::Load(d, taps.y.texel[j].lane + i), row_stride), d, offsets.row[j].lane + i);
+        }
+        if (!taps.volume) continue;
+        const auto slice_stride = look_up_level(d, table.slice_stride, level);
+        for (int z = 0; z < taps.z.count; ++z) {
+            hn::Store(hn::Add(base, hn::Mul(hn::Load(d, taps.z.texel[z].lane + i), slice_stride)), d, offsets.slice[z].lane + i);
+        }
+    }
+}
+
+/// Lanes that see nothing but the border repeat the texels of a lane that reads some. False where there is none.
+HWY_NOINLINE inline bool spare_border_lanes(const WideTaps& taps, TapOffsets& offsets) {
+    const WaveMask readable = taps.x.readable & taps.y.readable & (taps.volume ? taps.z.readable : kWaveFull);
+    if (readable == kWaveFull) return true;
+    if (readable == 0) return false;
+    const auto first = size_t(hwy::Num0BitsBelowLS1Bit_Nonzero32(readable));
+    const IntTag d;
+    const auto repeat = [&](WaveInt* offset, int count) HWY_ATTR {
+        for (int k = 0; k < count; ++k) {
+            const auto repeated = hn::Set(d, offset[k].lane[first]);
+            for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+                int32_t* const at = offset[k].lane + i;
+                hn::Store(hn::IfThenElse(lanes_of(d, readable, i), hn::Load(d, at), repeated), d, at);
+            }
+        }
+    };
+    repeat(offsets.column, taps.x.count);
+    repeat(offsets.row, taps.y.count);
+    repeat(offsets.slice, offsets.slices);
+    return true;
+}
+
+/// Index of tap (k, j) of slice z, for taps on the texture.
+HWY_INLINE hn::Vec<IntTag> tap_index(const TapOffsets& offsets, int k, int j, int z, size_t i) {
+    const IntTag d;
+    return hn::Add(hn::Add(hn::Load(d, offsets.slice[z].lane + i), hn::Load(d, offsets.row[j].lane + i)),
+                   hn::Load(d, offsets.column[k].lane + i));
+}
+
+/// Indices of tap (k, j) of a cube map: of one texel, or in the lanes of the mask returned three.
+template <StorageClass storage>
+HWY_NOINLINE WaveMask cube_tap_indices(const LevelTable& table, const WideTaps& taps, int k, int j, size_t i,
+                                       int32_t (&index)[3][kWaveLanes]) {
+    const IntTag d;
+    const auto level = hn::Load(d, taps.level->lane + i);
+    const auto tap = resolve_cube_tap(hn::Load(d, taps.slice->lane + i), hn::Load(d, taps.x.texel[k].lane + i),
+                                      hn::Load(d, taps.y.texel[j].lane + i), look_up_level(d, table.width, level));
+    for (int n = 0; n < 3; ++n) hn::Store(cube_texel_index<storage>(table, level, tap.texel[n]), d, index[n]);
+    return wave_mask(d, tap.corner, i);
+}
+
+/// Makes sure that the texels of all taps may be read.
+template <StorageClass storage>
+HWY_NOINLINE void ensure_wide(Texture& texture, const WideTaps& taps, const TapOffsets& offsets) {
+    const uint32_t ready = texture.ready_levels();
+    if (ready == texture.all_levels() || (levels_read(*taps.level) & ~ready) == 0) return;
+    const IntTag d;
+    constexpr int kChunk = 4;
+    WaveInt index[kChunk];
+    for (int z = 0; z < offsets.slices; ++z) {
+        for (int j = 0; j < taps.y.count; ++j) {
+            for (int first = 0; first < taps.x.count; first += kChunk) {
+                for (int n = 0; n < kChunk; ++n) {
+                    const int k = std::min(first + n, taps.x.count - 1);
+                    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) hn::Store(tap_index(offsets, k, j, z, i), d, index[n].lane + i);
+                }
+                ensure_blocks(texture, index);
+            }
+        }
+    }
+}
+
+/// The same for a cube map's taps of which some lie beyond edges.
+template <StorageClass storage>
+HWY_NOINLINE void ensure_wide_cube(Texture& texture, const WideTaps& taps) {
+    const uint32_t ready = texture.ready_levels();
+    if (ready == texture.all_levels() || (levels_read(*taps.level) & ~ready) == 0) return;
+    const IntTag d;
+    WaveInt index[4];
+    alignas(64) int32_t three[3][kWaveLanes];
+    for (int j = 0; j < taps.y.count; ++j) {
+        for (int k = 0; k < taps.x.count; ++k) {
+            for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+                cube_tap_indices<storage>(texture.levels(), taps, k, j, i, three);
+                for (int n = 0; n < 4; ++n) hn::Store(hn::Load(d, three[n % 3]), d, index[n].lane + i);
+            }
+            ensure_blocks(texture, index);
+        }
+    }
+}
+
+/// Reads texels as the numbers they are stored as: fields of the packed classes are scaled only once they are summed.
+template <StorageClass storage>
+class TexelReader {
+  public:
+    using V = hn::Vec<FloatTag>;
+    static constexpr bool kPacked = storage == StorageClass::Packed32 || storage == StorageClass::Packed64;
+
+    explicit TexelReader(const Texture& texture) : layout_(texture.texel_layout()), texels_(texture.texels()) {}
+
+    HWY_INLINE void read(hn::Vec<IntTag> index, V (&texel)[4]) const {
+        const FloatTag d;
+        const hn::RebindToUnsigned<IntTag> du;
+        if constexpr (storage == StorageClass::Float4) {
+            const auto* const base = reinterpret_cast<const float*>(texels_);
+            const auto at = hn::ShiftLeft<2>(index);
+            for (int c = 0; c < 4; ++c) texel[c] = hn::GatherIndex(d, base + c, at);
+            return;
+        }
+        const auto* const base = reinterpret_cast<const uint32_t*>(texels_);
+        if constexpr (storage == StorageClass::Packed32) {
+            const auto word = hn::GatherIndex(du, base, index);
+            for (int c = 0; c < 4; ++c) texel[c] = field(c, layout_.shift[c], word);
+            return;
+        }
+        const auto at = hn::ShiftLeft<1>(index);
+        const auto low = hn::GatherIndex(du, base, at), high = hn::GatherIndex(du, base + 1, at);
+        if constexpr (storage == StorageClass::Half4) {
+            const auto lower = [&](auto word) HWY_ATTR { return half_to_float_v(hn::And(word, hn::Set(du, 0xFFFFu))); };
+            texel[0] = lower(low), texel[1] = half_to_float_v(hn::ShiftRight<16>(low));
+            texel[2] = lower(high), texel[3] = half_to_float_v(hn::ShiftRight<16>(high));
+        } else {
+            for (int c = 0; c < 4; ++c) {
+                texel[c] = layout_.shift[c] < 32 ? field(c, layout_.shift[c], low) : field(c, layout_.shift[c] - 32, high);
+            }
+        }
+    }
+
+    /// The value of a weighted sum of what was read.
+    HWY_INLINE V value(int c, V sum) const {
+        const FloatTag d;
+        if constexpr (!kPacked) return sum;
+        if (layout_.mask[c] == 0) return hn::Set(d, layout_.bias[c]);
+        if (layout_.table[c] != nullptr) return sum;
+        return hn::Add(hn::Mul(sum, hn::Set(d, layout_.scale_hi[c])), hn::Mul(sum, hn::Set(d, layout_.scale_lo[c])));
+    }
+
+  private:
+    /// The field of channel c at bit `shift` of `word`, or its value where a table holds that.
+    HWY_INLINE V field(int c, int shift, hn::Vec<hn::RebindToUnsigned<IntTag>> word) const {
+        const FloatTag d;
+        const IntTag di;
+        const hn::RebindToUnsigned<IntTag> du;
+        const uint32_t mask = layout_.mask[c];
+        if (mask == 0) return hn::Zero(d);
+        const auto bits = hn::BitCast(di, hn::And(hn::ShiftRightSame(word, shift), hn::Set(du, mask)));
+        if (layout_.table[c] != nullptr) return hn::GatherIndex(d, layout_.table[c], bits);
+        if (!layout_.is_signed) return hn::ConvertTo(d, bits);
+        // Flipping the sign bit and subtracting it extends the sign. Two codes mean -1 (D3D11.3 3.2.3.4).
+        const auto sign = hn::Set(di, int32_t((mask + 1) >> 1));
+        const auto extended = hn::Sub(hn::Xor(bits, sign), sign);
+        return hn::ConvertTo(d, hn::Max(extended, hn::Set(di, -layout_.denominator[c])));
+    }
+
+    const TexelLayout& layout_;
+    const std::byte* texels_;
+};
+
+/// sum += weight * number, where a weight of 0 silences an infinity.
+template <StorageClass storage, class V>
+HWY_INLINE void add_weighed(V weight, const V (&number)[4], V (&sum)[4]) {
+    const hn::DFromV<V> d;
+    const auto weighs = hn::Ne(weight, hn::Zero(d));
+    for (int c = 0; c < 4; ++c) {
+        V product = hn::Mul(weight, number[c]);
+        if constexpr (!TexelReader<storage>::kPacked) product = hn::IfThenElseZero(weighs, product);
+        sum[c] = hn::Add(sum[c], product);
+    }
+}
+
+/// Reads tap (k, j) of a cube map where it may lie beyond an edge.
+template <StorageClass storage, class V>
+HWY_INLINE void read_cube_tap(const TexelReader<storage>& reader, const LevelTable& table, const WideTaps& taps, int k, int j, size_t i,
+                              V (&texel)[4]) {
+    const FloatTag d;
+    const IntTag di;
+    alignas(64) int32_t index[3][kWaveLanes];
+    const WaveMask corner = cube_tap_indices<storage>(table, taps, k, j, i, index);
+    reader.read(hn::Load(di, index[0]), texel);
+    if (corner == 0) return;
+    V second[4], third[4];
+    reader.read(hn::Load(di, index[1]), second);
+    reader.read(hn::Load(di, index[2]), third);
+    const auto shared = lanes_of(d, corner, i);
+    for (int c = 0; c < 4; ++c) {
+        const V mean = hn::Div(hn::Add(hn::Add(texel[c], second[c]), third[c]), hn::Set(d, 3.0f));
+        texel[c] = hn::IfThenElse(shared, mean, texel[c]);
+    }
+}
+
+/// Weighs all taps of all lanes.
+template <StorageClass storage>
+HWY_NOINLINE void sum_taps(const Texture& texture, const WideTaps& taps, const TapOffsets& offsets, WaveColor& out) {
+    const FloatTag d;
+    using V = hn::Vec<FloatTag>;
+    const TexelReader<storage> reader(texture);
+    const bool folds = taps.cube && taps.leaves();
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        V sum[4] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+        for (int z = 0; z < offsets.slices; ++z) {
+            V plane[4] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+            for (int j = 0; j < taps.y.count; ++j) {
+                V row[4] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+                for (int k = 0; k < taps.x.count; ++k) {
+                    V texel[4];
+                    if (folds) {
+                        read_cube_tap(reader, texture.levels(), taps, k, j, i, texel);
+                    } else {
+                        reader.read(tap_index(offsets, k, j, z, i), texel);
+                    }
+                    add_weighed<storage>(hn::Load(d, taps.x.weight[k].lane + i), texel, row);
+                }
+                add_weighed<storage>(hn::Load(d, taps.y.weight[j].lane + i), row, plane);
+            }
+            const V weight = taps.volume ? hn::Load(d, taps.z.weight[z].lane + i) : hn::Set(d, 1.0f);
+            add_weighed<storage>(weight, plane, sum);
+        }
+        for (int c = 0; c < 4; ++c) hn::Store(reader.value(c, sum[c]), d, out.channel[c].lane + i);
+    }
+}
+
+/// What the border takes of a product of axes.
+HWY_INLINE void combine_border(const BorderShare& axis, BorderShare& all) {
+    const FloatTag d;
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        const auto out_a = hn::Load(d, axis.outside.lane + i), in_a = hn::Load(d, axis.inside.lane + i);
+        const auto out_b = hn::Load(d, all.outside.lane + i), in_b = hn::Load(d, all.inside.lane + i);
+        hn::Store(hn::Add(hn::Mul(out_a, hn::Add(out_b, in_b)), hn::Mul(in_a, out_b)), d, all.outside.lane + i);
+        hn::Store(hn::Mul(in_a, in_b), d, all.inside.lane + i);
+    }
+}
+
+/// Adds the border's share to a sum over the texels. A channel that is not stored is constant, and so is its border.
+HWY_NOINLINE inline void add_border(const TexelLayout& layout, const std::array<float, 4>& border, const BorderShare& share, WaveColor& out) {
+    const FloatTag d;
+    const bool packed = layout.storage == StorageClass::Packed32 || layout.storage == StorageClass::Packed64;
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        const auto outside = hn::Load(d, share.outside.lane + i), inside = hn::Load(d, share.inside.lane + i);
+        const auto nothing_inside = hn::Eq(inside, hn::Zero(d));
+        const auto untouched = hn::Eq(outside, hn::Zero(d));
+        for (int c = 0; c < 4; ++c) {
+            const auto colour = hn::Set(d, border[size_t(c)]);
+            float* const at = out.channel[c].lane + i;
+            auto texels = hn::Load(d, at);
+            // A constant was not weighed yet.
+            if (packed && layout.mask[c] == 0) texels = hn::Mul(texels, inside);
+            const auto both = hn::Add(texels, hn::Mul(outside, colour));
+            hn::Store(hn::IfThenElse(untouched, hn::Load(d, at), hn::IfThenElse(nothing_inside, colour, both)), d, at);
+        }
+    }
+}
+
+/// Ensures, gathers and weighs the taps of one level.
+template <StorageClass storage>
+HWY_NOINLINE void filter_wide(Texture& texture, const std::array<float, 4>& border, WideTaps& taps, WaveColor& out) {
+    TapOffsets offsets;
+    tap_offsets<storage>(texture.levels(), taps, offsets);
+    if (!taps.leaves()) {
+        ensure_wide<storage>(texture, taps, offsets);
+        return sum_taps<storage>(texture, taps, offsets, out);
+    }
+    if (taps.cube) {
+        ensure_wide_cube<storage>(texture, taps);
+        return sum_taps<storage>(texture, taps, offsets, out);
+    }
+    BorderShare all, axis;
+    take_border(taps.x, all);
+    take_border(taps.y, axis);
+    combine_border(axis, all);
+    if (taps.volume) {
+        take_border(taps.z, axis);
+        combine_border(axis, all);
+    }
+    if (spare_border_lanes(taps, offsets)) {
+        ensure_wide<storage>(texture, taps, offsets);
+        sum_taps<storage>(texture, taps, offsets, out);
+    } else {
+        out = {};
+    }
+    add_border(texture.texel_layout(), border, all, out);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rawtexel::texunit
+HWY_AFTER_NAMESPACE();
+
+#endif  // RAWTEXEL_TEXUNIT_WIDE_FILTER_INL_H_
