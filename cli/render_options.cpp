@@ -1,6 +1,7 @@
 #include "cli/render_options.h"
 
 #include "cli/option_values.h"
+#include "cli/texture_options.h"
 
 #include <algorithm>
 #include <array>
@@ -84,6 +85,7 @@ void declare_lookup_options(CommandLine& line, LookupOptions& lookup) {
                 [&](const std::string& text) { lookup.mip = parse_mip(text); });
     line.option("--mip-storage", "source|float", "generated levels rounded to the image's own format (the default), or kept in float",
                 [&](const std::string& text) { lookup.mip_storage = parse_mip_storage(text); });
+    declare_texture_options(line, lookup.files);
 }
 
 void declare_sample_options(CommandLine& line, SampleOptions& samples) {

@@ -6,6 +6,7 @@
 #include "cli/progress.h"
 #include "shading/display.h"
 #include "shading/render.h"
+#include "texunit/containers.h"
 #include "texunit/simd.h"
 #include "texunit/texture.h"
 
@@ -66,6 +67,7 @@ struct LookupOptions {
     std::optional<texunit::Kernel> filter;  ///< unset: what the scene's samplers say
     std::optional<texunit::MipMode> mip;
     texunit::MipStorage mip_storage = texunit::MipStorage::Source;
+    texunit::ContainerOptions files;
 };
 
 struct SampleOptions {

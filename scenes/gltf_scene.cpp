@@ -26,7 +26,7 @@ class SceneBuilder {
         : document_(document),
           notices_(document.path, options),
           accessors_(document),
-          textures_(document, options.texture, notices_),
+          textures_(document, options, notices_),
           nodes_(flatten_nodes(document)) {}
 
     shading::Scene build() {

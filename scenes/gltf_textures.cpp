@@ -80,8 +80,8 @@ int extension_source(const tinygltf::Texture& texture, const char* extension) {
 
 }  // namespace
 
-GltfTextures::GltfTextures(const GltfDocument& document, const texunit::TextureOptions& options, GltfNotices& notices)
-    : document_(document), options_(options), notices_(notices) {
+GltfTextures::GltfTextures(const GltfDocument& document, const LoadOptions& options, GltfNotices& notices)
+    : document_(document), texture_options_(options.texture), file_options_(options.files), notices_(notices) {
     for (size_t i = 0; i < document.images.size(); ++i) {
         const GltfImage& image = document.images[i];
         const EncodedBytes bytes(image.name, image.encoded);
@@ -97,9 +97,9 @@ std::unique_ptr<texunit::TexelSource> GltfTextures::open(int index, bool srgb) c
     try {
         const auto bytes = std::make_shared<const EncodedBytes>(name, image.encoded);
         switch (texunit::container_kind(*bytes)) {
-            case ContainerKind::Ktx2: return texunit::reinterpret_srgb(texunit::open_ktx2(bytes), srgb);
-            case ContainerKind::Dds: return texunit::reinterpret_srgb(texunit::open_dds(bytes), srgb);
-            default: return open_image_memory(name, image.encoded, srgb);
+            case ContainerKind::Ktx2: return texunit::reinterpret_srgb(texunit::open_ktx2(bytes, file_options_), srgb);
+            case ContainerKind::Dds: return texunit::reinterpret_srgb(texunit::open_dds(bytes, file_options_), srgb);
+            default: return open_image_memory(name, image.encoded, srgb, file_options_.max_texture_bytes);
         }
     } catch (const texunit::TextureError& error) {
         throw InputError(one_line(error.what()));
@@ -129,7 +129,7 @@ int GltfTextures::texture(int index, bool srgb) {
     const GltfImage& source = document_.images[size_t(image)];
     const EncodedBytes bytes(source.name, source.encoded);
     shading::SceneTexture texture;
-    texture.texture = std::make_shared<texunit::Texture>(source.name, open(image, srgb), options_);
+    texture.texture = std::make_shared<texunit::Texture>(source.name, open(image, srgb), texture_options_);
     texture.image_name = source.name;
     texture.mime_type = mime_type_of(texunit::container_kind(bytes), image_format(source.name, *source.encoded));
     if (texture.mime_type.empty()) texture.mime_type = source.mime_type;

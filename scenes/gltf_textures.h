@@ -3,6 +3,7 @@
 
 #include "scenes/gltf_document.h"
 #include "scenes/gltf_notices.h"
+#include "scenes/load.h"
 
 #include "shading/scene.h"
 
@@ -15,7 +16,7 @@ namespace rawtexel::scenes {
 class GltfTextures {
   public:
     /// Opens every image of the document, used or not. Throws InputError.
-    GltfTextures(const GltfDocument& document, const texunit::TextureOptions& options, GltfNotices& notices);
+    GltfTextures(const GltfDocument& document, const LoadOptions& options, GltfNotices& notices);
 
     /// Index into `textures()` of glTF texture `texture` read as sRGB-encoded colour or as data. Throws InputError.
     int texture(int texture, bool srgb);
@@ -29,7 +30,8 @@ class GltfTextures {
     std::unique_ptr<texunit::TexelSource> open(int image, bool srgb) const;
 
     const GltfDocument& document_;
-    texunit::TextureOptions options_;
+    texunit::TextureOptions texture_options_;
+    texunit::ContainerOptions file_options_;
     GltfNotices& notices_;
     std::vector<shading::SceneTexture> textures_;
     std::map<std::pair<int, bool>, int> known_;  ///< (image, srgb) to index

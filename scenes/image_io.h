@@ -27,9 +27,12 @@ std::vector<std::byte> read_file(const std::string& path);
 /// half or float. Grey becomes r = g = b; alpha is unassociated; profiles, gamma and orientation in the file play no part (glTF 2.0 3.9.2).
 /// `srgb`: colour is encoded by the sRGB curve. 8-bit colour keeps its codes, 16-bit colour is decoded to float, float is linear already.
 /// Damage found in the pixels is a texunit::TextureError of every texel.
-/// Throws InputError: missing, not a regular file, not an image, zero or over-large extents (1..16384), unsupported.
-std::unique_ptr<texunit::TexelSource> open_image(const std::string& path, bool srgb);
-std::unique_ptr<texunit::TexelSource> open_image_memory(std::string name, std::shared_ptr<const std::vector<std::byte>> encoded, bool srgb);
+/// Throws InputError: missing, not a regular file, not an image, zero or over-large extents (1..16384), more than `max_bytes` of texels,
+/// unsupported.
+inline constexpr uint64_t kMaxImageBytes = texunit::ContainerOptions{}.max_texture_bytes;
+std::unique_ptr<texunit::TexelSource> open_image(const std::string& path, bool srgb, uint64_t max_bytes = kMaxImageBytes);
+std::unique_ptr<texunit::TexelSource> open_image_memory(std::string name, std::shared_ptr<const std::vector<std::byte>> encoded, bool srgb,
+                                                        uint64_t max_bytes = kMaxImageBytes);
 
 /// The whole image as linear floats with its own channels. 8-bit and 16-bit integer images are decoded by the sRGB curve when
 /// `srgb_integers`.

@@ -132,13 +132,18 @@ class ImageSource final : public texunit::TexelSource {
 
 }  // namespace
 
-std::unique_ptr<texunit::TexelSource> open_image_memory(std::string name, std::shared_ptr<const std::vector<std::byte>> encoded,
-                                                        bool srgb) {
-    return std::make_unique<ImageSource>(std::move(name), std::move(encoded), srgb);
+std::unique_ptr<texunit::TexelSource> open_image_memory(std::string name, std::shared_ptr<const std::vector<std::byte>> encoded, bool srgb,
+                                                        uint64_t max_bytes) {
+    auto source = std::make_unique<ImageSource>(name, std::move(encoded), srgb);
+    if (source->stored_bytes() > max_bytes) {
+        throw InputError(name + ": " + std::to_string(source->stored_bytes()) + " bytes of texels (at most " + std::to_string(max_bytes) +
+                         " are allowed)");
+    }
+    return source;
 }
 
-std::unique_ptr<texunit::TexelSource> open_image(const std::string& path, bool srgb) {
-    return open_image_memory(path, std::make_shared<const std::vector<std::byte>>(read_file(path)), srgb);
+std::unique_ptr<texunit::TexelSource> open_image(const std::string& path, bool srgb, uint64_t max_bytes) {
+    return open_image_memory(path, std::make_shared<const std::vector<std::byte>>(read_file(path)), srgb, max_bytes);
 }
 
 }  // namespace rawtexel::scenes

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shading/scene.h"
+#include "texunit/containers.h"
 
 #include <functional>
 #include <stdexcept>
@@ -17,6 +18,7 @@ class InputError : public std::runtime_error {
 
 struct LoadOptions {
     texunit::TextureOptions texture;
+    texunit::ContainerOptions files;  ///< the limit holds for images too
     /// Told once of each thing that is left out: an unknown optional extension, an animation, a skin.
     std::function<void(const std::string&)> warn = [](const std::string&) {};
 };

@@ -168,6 +168,7 @@ int RenderCommand::run(const Invocation& invocation) {
 
     scenes::LoadOptions load_options;
     load_options.texture.mip_storage = request_.lookup.mip_storage;
+    load_options.files = request_.lookup.files;
     load_options.warn = [&](const std::string& what) { warn(invocation, what); };
     const shading::Scene scene = scenes::load(scene_, load_options);
     const ImageSize size = request_.image_size();

@@ -1,6 +1,7 @@
 // Images of every kind that a glTF may name.
 #include "tests/scenes/gltf_fixture.h"
 
+#include "texunit/srgb.h"
 #include "texunit/texel_source.h"
 
 #include <gtest/gtest.h>
@@ -46,13 +47,13 @@ std::vector<std::byte> ktx2(uint32_t vk_format, uint32_t supercompression) {
 constexpr uint32_t kVkBc1RgbUnorm = 131, kVkUndefined = 0;
 
 /// A DDS file of one 4 x 4 BC1 block.
-std::vector<std::byte> dds() {
+std::vector<std::byte> dds(const std::array<uint8_t, 8>& block = bc1_block(0x07e0)) {
     std::vector<std::byte> file = bytes_of("DDS ");
     for (const uint32_t field : {124u, 0x81007u, 4u, 4u, 8u, 0u, 1u}) append_32(file, field);
     for (int i = 0; i < 11; ++i) append_32(file, 0);
     for (const uint32_t field : {32u, 4u, 0x31545844u, 0u, 0u, 0u, 0u, 0u}) append_32(file, field);  // "DXT1"
     for (const uint32_t field : {0x1000u, 0u, 0u, 0u, 0u}) append_32(file, field);
-    for (const uint8_t b : bc1_block(0x07e0)) file.push_back(std::byte(b));
+    for (const uint8_t b : block) file.push_back(std::byte(b));
     return file;
 }
 
@@ -112,6 +113,38 @@ TEST_F(GltfTexturesTest, DdsIsReadThroughItsExtension) {
     const shading::SceneTexture result = loaded();
     EXPECT_EQ(result.mime_type, "image/vnd-ms.dds");
     EXPECT_EQ(result.texture->texel(0, 0, 1, 1), (std::array<float, 4>{0, 1, 0, 1}));
+}
+
+TEST_F(GltfTexturesTest, BlocksAreRoundedAsTheOptionsAsk) {
+    // Every texel is two thirds of 6, 12, 6 and one of 5, 11, 5: the grey 47, which NVIDIA shows as 46, 47, 46.
+    fixture_.add_image(dds({0x86, 0x31, 0x65, 0x29, 0xaa, 0xaa, 0xaa, 0xaa}), "image/vnd-ms.dds");
+    const std::string file = folder_.write("scene.glb", fixture_.glb());
+    LoadOptions options;
+    const auto red = [&](texunit::BcRounding rounding) {
+        options.files.bc_rounding = rounding;
+        return load_gltf(file, options).textures.at(0).texture->texel(0, 0, 0, 0)[0];
+    };
+    EXPECT_FLOAT_EQ(red(texunit::BcRounding::Exact), float(texunit::srgb_to_linear(17.0 / 93)));
+    EXPECT_FLOAT_EQ(red(texunit::BcRounding::Nvidia), float(texunit::srgb_to_linear(46.0 / 255)));
+}
+
+TEST_F(GltfTexturesTest, MoreTexelsThanTheOptionsAllowAreRefused) {
+    const auto refusal = [&](const std::vector<std::byte>& image, const char* mime_type, uint64_t most) -> std::string {
+        GltfFixture fixture = fixture_;
+        fixture.add_image(image, mime_type);
+        LoadOptions options;
+        options.files.max_texture_bytes = most;
+        try {
+            load_gltf(folder_.write("scene.glb", fixture.glb()), options);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(refusal(dds(), "image/vnd-ms.dds", 8), "");
+    EXPECT_TRUE(says(refusal(dds(), "image/vnd-ms.dds", 7), "8 bytes of texels; at most 7 are allowed"));
+    EXPECT_EQ(refusal(test_png(5, 3), "image/png", 60), "");
+    EXPECT_TRUE(says(refusal(test_png(5, 3), "image/png", 59), "60 bytes of texels (at most 59 are allowed)"));
 }
 
 TEST_F(GltfTexturesTest, EveryImageIsOpenedUsedOrNot) {
