@@ -10,8 +10,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
+#include <memory>
 #include <random>
+#include <span>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -97,6 +100,42 @@ TEST(ContainerFiles, AreReadInPages) {
         const TemporaryFile file(c.bytes);
         SCOPED_TRACE(c.name);
         test_files::expect_same_texels(*open_case(open_file(file.path())), c.image, c.format);
+    }
+}
+
+/// A file that remembers what was read of it.
+class WatchedBytes final : public ByteSource {
+  public:
+    explicit WatchedBytes(Bytes bytes) : bytes_(open_memory("watched", std::move(bytes))) {}
+    uint64_t size() const override { return bytes_->size(); }
+    const std::string& name() const override { return bytes_->name(); }
+    void read(uint64_t offset, std::span<std::byte> out) const override {
+        read_ += out.size();
+        bytes_->read(offset, out);
+    }
+    uint64_t bytes_read() const { return read_; }
+
+  private:
+    std::shared_ptr<ByteSource> bytes_;
+    mutable uint64_t read_ = 0;
+};
+
+TEST(ContainerFiles, AreReadNoFurtherThanTheirHeadersUntilATexelIsAskedFor) {
+    for (const FileCase& c : files_of_many_pages()) {
+        SCOPED_TRACE(c.name);
+        const auto file = std::make_shared<WatchedBytes>(c.bytes);
+        const auto source = open_case(file);
+        const uint64_t header = file->bytes_read();
+        EXPECT_LE(header, 1024u);
+        Bytes texels(256);
+        source->decode_block(0, 0, 1, 1, texels.data());
+        const uint64_t first = file->bytes_read() - header;
+        EXPECT_GT(first, 0u);
+        // A page or two; of a level that is compressed as a whole, that level.
+        EXPECT_LE(first, std::string_view(c.name).ends_with("zstd") ? c.bytes.size() : uint64_t{128} << 10);
+        EXPECT_LT(first, c.bytes.size());
+        source->decode_block(0, 0, 1, 1, texels.data());
+        EXPECT_EQ(file->bytes_read(), header + first) << "what was read is kept";
     }
 }
 
