@@ -60,6 +60,23 @@ Image tone_mapped(const Image& radiance, const DisplayOptions& options) {
     return display;
 }
 
+std::vector<uint8_t> encode_8bit_over_white(const Image& radiance, const Image& coverage, const DisplayOptions& options) {
+    assert(coverage.channels == 1 && coverage.width == radiance.width && coverage.height == radiance.height);
+    Image whole = radiance;
+    const auto covered = [&](size_t value) { return coverage.values[value / size_t(radiance.channels)]; };
+    for (size_t i = 0; i < whole.values.size(); ++i)
+        if (covered(i) > 0.0f) whole.values[i] /= covered(i);
+    const Image display = tone_mapped(whole, options);
+    std::vector<uint8_t> codes = encode_8bit(display, options.transfer);
+    for (size_t i = 0; i < codes.size(); ++i) {
+        const double share = double(covered(i));
+        if (share == 1.0) continue;
+        const double shown = share > 0.0 ? encoded(double(display.values[i]), options.transfer) : 0.0;
+        codes[i] = uint8_t(std::lround(255.0 * (shown * share + (1.0 - share))));
+    }
+    return codes;
+}
+
 std::vector<uint8_t> encode_8bit(const Image& display_linear, Transfer transfer) {
     const CodeTable& table = code_table(transfer);
     std::vector<uint8_t> codes(display_linear.values.size());

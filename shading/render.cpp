@@ -70,7 +70,7 @@ TileTotals render_tiles(const TileInputs& inputs, size_t texture_count, std::spa
         std::unique_ptr<Worker>& worker = workers[size_t(number)];
         if (!worker) worker = std::make_unique<Worker>(inputs, texture_count);
         render_tile(inputs, tiles.x(index), tiles.y(index), worker->scratch);
-        worker->resolver.resolve(tiles.x(index), tiles.y(index), worker->scratch, aovs, result.radiance, result.layers);
+        worker->resolver.resolve(tiles.x(index), tiles.y(index), worker->scratch, aovs, result);
         if (progress) progress(double(++done) / double(tiles.count()));
     });
     TileTotals totals;
@@ -93,6 +93,7 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
     RenderResult result;
     result.times.geometry_s = seconds_since(start);
     result.radiance = Image(visible.x1 - visible.x0, visible.y1 - visible.y0, 3);
+    if (options.coverage) result.coverage = Image(result.radiance.width, result.radiance.height, 1);
     for (const Aov aov : options.aovs) result.layers.push_back(make_layer(aov, result.radiance.width, result.radiance.height));
 
     const TileInputs inputs{
@@ -107,7 +108,7 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
         .pixel_jitter = options.pixel_jitter,
         .seed = options.seed,
         .background = options.background,
-        .planes = TilePlanes(options.aovs),
+        .planes = TilePlanes(options.aovs, options.coverage),
         .count = options.count,
     };
     TileTotals totals = render_tiles(inputs, scene.textures.size(), options.aovs, result, executor, progress);

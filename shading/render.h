@@ -37,8 +37,9 @@ struct RenderOptions {
     std::optional<texunit::MipMode> mip;
     std::optional<glm::vec3> background;  ///< nullopt: the environment, black where there is none
     std::vector<Aov> aovs;
-    bool count = false;  ///< fill RenderResult::fetches
-    int tile_size = 64;  ///< 32, 64 or 128
+    bool coverage = false;  ///< fill RenderResult::coverage
+    bool count = false;     ///< fill RenderResult::fetches
+    int tile_size = 64;     ///< 32, 64 or 128
 };
 
 struct RenderTimes {
@@ -49,6 +50,7 @@ struct RenderTimes {
 struct RenderResult {
     Image radiance;             ///< 3 channels, crop extents
     std::vector<Layer> layers;  ///< one per requested AOV, in order
+    Image coverage;             ///< 1 channel: the share of a pixel's samples that saw a surface; empty unless asked for
     raster::FrameCounts geometry;
     uint64_t samples_shaded = 0;                ///< samples that saw a surface
     std::vector<texunit::FetchCounts> fetches;  ///< per scene texture, when counted

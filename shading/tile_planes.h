@@ -9,7 +9,7 @@ namespace rawtexel::shading {
 
 /// Plane numbers; -1: not kept. Layers of surface properties are means over the samples that saw a surface.
 struct TilePlanes {
-    explicit TilePlanes(std::span<const Aov> aovs = {});
+    explicit TilePlanes(std::span<const Aov> aovs = {}, bool coverage = false);
 
     static constexpr int kRadiance = 0;  ///< three planes
     int count = 3;                       ///< of the planes that are summed

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shading/image.h"
+#include "shading/render.h"
 #include "shading/tile.h"
 
 #include <span>
@@ -17,7 +18,8 @@ class TileResolver {
   public:
     explicit TileResolver(const TileInputs& inputs);
 
-    void resolve(int tile_x, int tile_y, const TileScratch& tile, std::span<const Aov> aovs, Image& radiance, std::span<Layer> layers);
+    /// Radiance, the layers of `aovs` and, where it has an image, coverage.
+    void resolve(int tile_x, int tile_y, const TileScratch& tile, std::span<const Aov> aovs, RenderResult& result);
 
   private:
     void resolve_layer(Aov aov, const TileScratch& tile, Image& image);

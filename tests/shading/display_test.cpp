@@ -150,5 +150,31 @@ TEST(DisplayNames, ParseWhatTheyPrint) {
     EXPECT_EQ(parse_transfer("SRGB"), std::nullopt);
 }
 
+TEST(Encode8BitOverWhite, WholePixelsAreAsWithoutWhite) {
+    Image radiance(256, 1, 3), coverage(256, 1, 1);
+    for (size_t i = 0; i < radiance.values.size(); ++i) radiance.values[i] = float(i) * float(i) / 1e4f;
+    std::fill(coverage.values.begin(), coverage.values.end(), 1.0f);
+    for (const Transfer transfer : kAll) {
+        const DisplayOptions options{0.5f, ToneMap::Aces, transfer};
+        EXPECT_EQ(encode_8bit_over_white(radiance, coverage, options), encode_8bit(tone_mapped(radiance, options), transfer))
+            << to_string(transfer);
+    }
+}
+
+TEST(Encode8BitOverWhite, EmptyPixelsAreWhiteAndHalfOnesLieInTheMiddle) {
+    for (const ToneMap tone_map : {ToneMap::Aces, ToneMap::Reinhard, ToneMap::None})
+        for (const float value : {0.0f, 0.1f, 0.7f, 50.0f}) {
+            Image radiance(3, 1, 3), coverage(3, 1, 1);
+            coverage.values = {0.0f, 0.5f, 1.0f};
+            for (int x = 0; x < 3; ++x)
+                for (int c = 0; c < 3; ++c) radiance.pixel(x, 0)[c] = value * coverage.values[size_t(x)];
+            const std::vector<uint8_t> codes = encode_8bit_over_white(radiance, coverage, {0.0f, tone_map, Transfer::Srgb});
+            for (size_t c = 0; c < 3; ++c) {
+                EXPECT_EQ(codes[c], 255);
+                EXPECT_NEAR(codes[3 + c], (255.0 + codes[6 + c]) / 2.0, 1.0) << to_string(tone_map) << ' ' << value;
+            }
+        }
+}
+
 }  // namespace
 }  // namespace rawtexel::shading

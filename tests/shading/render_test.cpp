@@ -236,6 +236,30 @@ TEST_F(RenderTest, FillsTheBackgroundAsAsked) {
     }
 }
 
+TEST_F(RenderTest, TellsWhichShareOfAPixelIsCovered) {
+    // The left half of the frame and half of the pixel at x = 8; sample points are spread evenly, so 64 of them tell a half within 1/16.
+    Scene scene;
+    add_object(scene, make_quad({-1, -1, 0}, {1.0625f, 0, 0}, {0, 2, 0}), unlit(glm::vec4(0.5f, 0.5f, 0.5f, 1.0f)));
+    RenderOptions options;
+    options.width = options.height = 16;
+    options.camera = square_camera();
+    options.spp = 64;
+    options.background = glm::vec3(0.0f);
+    EXPECT_TRUE(render(scene, Lighting{}, options, *one_).coverage.values.empty());
+    options.coverage = true;
+    const RenderResult result = render(scene, Lighting{}, options, *one_);
+    ASSERT_EQ(result.coverage.channels, 1);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) {
+            const float share = result.coverage.pixel(x, y)[0];
+            if (x == 8)
+                EXPECT_NEAR(share, 0.5f, 1.0f / 16.0f);
+            else
+                EXPECT_EQ(share, x < 8 ? 1.0f : 0.0f) << x;
+            EXPECT_EQ(result.radiance.pixel(x, y)[1], 0.5f * share);  // over black
+        }
+}
+
 TEST_F(RenderTest, ReportsProgressUpToOne) {
     RenderOptions options = RenderTest::options();
     options.tile_size = 32;
