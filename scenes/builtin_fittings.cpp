@@ -8,7 +8,8 @@
 
 #include <array>
 #include <cmath>
-#include <vector>
+#include <initializer_list>
+#include <span>
 
 namespace rawtexel::scenes {
 namespace {
@@ -28,48 +29,56 @@ void append_stream(shading::Mesh& mesh, float angle) {
     append_tube(mesh, path, 0.016f, 0.009f, 8, 0.2f, 1.0f);
 }
 
-}  // namespace
+/// The profile turned about the y axis.
+void turn(shading::Mesh& mesh, std::initializer_list<glm::vec2> profile, int around, float repeat, float metres_per_uv,
+          float crease = 40.0f) {
+    append_lathe(mesh, std::span(profile.begin(), profile.size()), around, repeat, metres_per_uv, crease);
+}
 
-Fountain make_fountain() {
-    Fountain fountain;
-    // Basin wall: rounded rim of stone over tiles inside and out.
-    const std::array<glm::vec2, 9> rim{{{1.62f, 0.44f},
-                                        {1.68f, 0.45f},
-                                        {1.72f, 0.48f},
-                                        {1.72f, 0.53f},
-                                        {1.68f, 0.57f},
-                                        {1.60f, 0.585f},
-                                        {1.46f, 0.57f},
-                                        {1.42f, 0.53f},
-                                        {1.42f, 0.46f}}};
-    append_lathe(fountain.stone, rim, 64, 5.0f, 2.0f, 60.0f);
-    const std::array<glm::vec2, 4> step{{{1.86f, 0.0f}, {1.86f, 0.11f}, {1.84f, 0.13f}, {1.60f, 0.13f}}};
-    append_lathe(fountain.stone, step, 64, 6.0f, 2.0f);
-    const std::array<glm::vec2, 2> outside{{{1.62f, 0.13f}, {1.62f, 0.44f}}};
-    append_lathe(fountain.tiles, outside, 64, 8.0f, 1.2f);
-    const std::array<glm::vec2, 2> inside{{{1.44f, 0.48f}, {1.44f, 0.10f}}};
-    append_lathe(fountain.tiles, inside, 64, 8.0f, 1.2f);
+/// A rounded rim of stone on a step, over tiles inside and out.
+void append_basin(Fountain& fountain) {
+    turn(fountain.stone,
+         {{1.62f, 0.44f},
+          {1.68f, 0.45f},
+          {1.72f, 0.48f},
+          {1.72f, 0.53f},
+          {1.68f, 0.57f},
+          {1.60f, 0.585f},
+          {1.46f, 0.57f},
+          {1.42f, 0.53f},
+          {1.42f, 0.46f}},
+         64, 5.0f, 2.0f, 60.0f);
+    turn(fountain.stone, {{1.86f, 0.0f}, {1.86f, 0.11f}, {1.84f, 0.13f}, {1.60f, 0.13f}}, 64, 6.0f, 2.0f);
+    turn(fountain.tiles, {{1.62f, 0.13f}, {1.62f, 0.44f}}, 64, 8.0f, 1.2f);
+    turn(fountain.tiles, {{1.44f, 0.48f}, {1.44f, 0.10f}}, 64, 8.0f, 1.2f);
     append_disc(fountain.tiles, 0.10f, 1.44f, 48, 1.2f);
+}
 
-    // Pedestal and upper bowl.
-    const std::array<glm::vec2, 22> pedestal{
-        {{0.34f, 0.10f}, {0.34f, 0.30f}, {0.31f, 0.34f}, {0.22f, 0.38f}, {0.17f, 0.46f}, {0.16f, 0.56f}, {0.19f, 0.64f}, {0.22f, 0.68f},
-         {0.19f, 0.72f}, {0.13f, 0.78f}, {0.12f, 0.92f}, {0.15f, 1.02f}, {0.24f, 1.08f}, {0.40f, 1.13f}, {0.54f, 1.22f}, {0.60f, 1.32f},
-         {0.62f, 1.34f}, {0.62f, 1.37f}, {0.59f, 1.38f}, {0.56f, 1.35f}, {0.45f, 1.24f}, {0.0f, 1.20f}}};
-    append_lathe(fountain.stone, pedestal, 48, 3.0f, 2.0f, 55.0f);
-    const std::array<glm::vec2, 12> finial{{{0.10f, 1.22f},
-                                            {0.11f, 1.30f},
-                                            {0.07f, 1.36f},
-                                            {0.06f, 1.46f},
-                                            {0.11f, 1.50f},
-                                            {0.15f, 1.57f},
-                                            {0.165f, 1.65f},
-                                            {0.15f, 1.74f},
-                                            {0.11f, 1.83f},
-                                            {0.06f, 1.90f},
-                                            {0.02f, 1.945f},
-                                            {0.0f, 1.95f}}};
-    append_lathe(fountain.bronze, finial, 32, 2.0f, 0.5f, 60.0f);
+/// Pedestal and upper bowl in one piece, and the finial that rises from the bowl.
+void append_pedestal(Fountain& fountain) {
+    turn(fountain.stone,
+         {{0.34f, 0.10f}, {0.34f, 0.30f}, {0.31f, 0.34f}, {0.22f, 0.38f}, {0.17f, 0.46f}, {0.16f, 0.56f}, {0.19f, 0.64f}, {0.22f, 0.68f},
+          {0.19f, 0.72f}, {0.13f, 0.78f}, {0.12f, 0.92f}, {0.15f, 1.02f}, {0.24f, 1.08f}, {0.40f, 1.13f}, {0.54f, 1.22f}, {0.60f, 1.32f},
+          {0.62f, 1.34f}, {0.62f, 1.37f}, {0.59f, 1.38f}, {0.56f, 1.35f}, {0.45f, 1.24f}, {0.0f, 1.20f}},
+         48, 3.0f, 2.0f, 55.0f);
+    turn(fountain.bronze,
+         {{0.10f, 1.22f},
+          {0.11f, 1.30f},
+          {0.07f, 1.36f},
+          {0.06f, 1.46f},
+          {0.11f, 1.50f},
+          {0.15f, 1.57f},
+          {0.165f, 1.65f},
+          {0.15f, 1.74f},
+          {0.11f, 1.83f},
+          {0.06f, 1.90f},
+          {0.02f, 1.945f},
+          {0.0f, 1.95f}},
+         32, 2.0f, 0.5f, 60.0f);
+}
+
+/// Six spouts on the bowl, a stream from each, and the water's two surfaces.
+void append_water(Fountain& fountain) {
     for (int i = 0; i < 6; ++i) {
         const float angle = kTau * (float(i) + 0.5f) / 6.0f;
         const glm::vec3 out(std::sin(angle), 0.0f, std::cos(angle));
@@ -79,27 +88,37 @@ Fountain make_fountain() {
     }
     append_disc(fountain.water, 0.44f, 1.44f, 64, 2.0f);
     append_disc(fountain.water, 1.33f, 0.56f, 48, 2.0f);
+}
+
+}  // namespace
+
+Fountain make_fountain() {
+    Fountain fountain;
+    append_basin(fountain);
+    append_pedestal(fountain);
+    append_water(fountain);
     return fountain;
 }
 
 void append_pot(shading::Mesh& pot, float height, float radius) {
     const float h = height, r = radius;
-    const std::array<glm::vec2, 15> profile{{{0.0f, 0.002f},
-                                             {0.62f * r, 0.002f},
-                                             {0.66f * r, 0.03f * h},
-                                             {0.80f * r, 0.35f * h},
-                                             {0.90f * r, 0.66f * h},
-                                             {0.91f * r, 0.80f * h},
-                                             {1.00f * r, 0.82f * h},
-                                             {1.04f * r, 0.86f * h},
-                                             {1.04f * r, 0.95f * h},
-                                             {1.00f * r, 0.99f * h},
-                                             {0.95f * r, 1.00f * h},
-                                             {0.90f * r, 0.99f * h},
-                                             {0.87f * r, 0.94f * h},
-                                             {0.85f * r, 0.86f * h},
-                                             {0.84f * r, 0.80f * h}}};
-    append_lathe(pot, profile, 40, 2.0f, 1.0f, 50.0f);
+    turn(pot,
+         {{0.0f, 0.002f},
+          {0.62f * r, 0.002f},
+          {0.66f * r, 0.03f * h},
+          {0.80f * r, 0.35f * h},
+          {0.90f * r, 0.66f * h},
+          {0.91f * r, 0.80f * h},
+          {1.00f * r, 0.82f * h},
+          {1.04f * r, 0.86f * h},
+          {1.04f * r, 0.95f * h},
+          {1.00f * r, 0.99f * h},
+          {0.95f * r, 1.00f * h},
+          {0.90f * r, 0.99f * h},
+          {0.87f * r, 0.94f * h},
+          {0.85f * r, 0.86f * h},
+          {0.84f * r, 0.80f * h}},
+         40, 2.0f, 1.0f, 50.0f);
 }
 
 void append_disc(shading::Mesh& mesh, float y, float radius, int around, float metres_per_uv) {
@@ -118,12 +137,10 @@ Lantern make_lantern() {
     };
     const std::array<glm::vec3, 2> chain{glm::vec3(0, 0, 0), glm::vec3(0, -0.32f, 0)};
     append_tube(lantern.metal, chain, 0.008f, 0.008f, 8, 1.0f, 1.0f);
-    const std::array<glm::vec2, 6> cap{
-        {{0.19f, -0.50f}, {0.20f, -0.485f}, {0.13f, -0.42f}, {0.05f, -0.36f}, {0.03f, -0.33f}, {0.0f, -0.31f}}};
-    append_lathe(lantern.metal, cap, 6, 1.0f, 1.0f, 20.0f);
-    const std::array<glm::vec2, 6> tray{
-        {{0.0f, -0.90f}, {0.03f, -0.88f}, {0.10f, -0.855f}, {0.135f, -0.84f}, {0.135f, -0.82f}, {0.0f, -0.82f}}};
-    append_lathe(lantern.metal, tray, 6, 1.0f, 1.0f, 20.0f);
+    turn(lantern.metal, {{0.19f, -0.50f}, {0.20f, -0.485f}, {0.13f, -0.42f}, {0.05f, -0.36f}, {0.03f, -0.33f}, {0.0f, -0.31f}}, 6, 1.0f,
+         1.0f, 20.0f);
+    turn(lantern.metal, {{0.0f, -0.90f}, {0.03f, -0.88f}, {0.10f, -0.855f}, {0.135f, -0.84f}, {0.135f, -0.82f}, {0.0f, -0.82f}}, 6, 1.0f,
+         1.0f, 20.0f);
     for (int i = 0; i < 6; ++i) {
         const std::array<glm::vec3, 2> bar{corner(i, 0.122f, -0.83f), corner(i, 0.172f, -0.49f)};
         append_tube(lantern.metal, bar, 0.009f, 0.009f, 6, 0.2f, 1.0f);
@@ -135,15 +152,16 @@ Lantern make_lantern() {
             return ShapePoint{p, glm::cross(right, top - low), right, {s, 1.0f - t}};
         });
     }
-    const std::array<glm::vec2, 8> flame{{{0.0f, -0.80f},
-                                          {0.022f, -0.79f},
-                                          {0.034f, -0.75f},
-                                          {0.036f, -0.71f},
-                                          {0.028f, -0.66f},
-                                          {0.016f, -0.615f},
-                                          {0.006f, -0.585f},
-                                          {0.0f, -0.575f}}};
-    append_lathe(lantern.flame, flame, 16, 1.0f, 1.0f, 70.0f);
+    turn(lantern.flame,
+         {{0.0f, -0.80f},
+          {0.022f, -0.79f},
+          {0.034f, -0.75f},
+          {0.036f, -0.71f},
+          {0.028f, -0.66f},
+          {0.016f, -0.615f},
+          {0.006f, -0.585f},
+          {0.0f, -0.575f}},
+         16, 1.0f, 1.0f, 70.0f);
     return lantern;
 }
 
