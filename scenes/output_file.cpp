@@ -19,17 +19,17 @@ namespace {
     throw OutputError(path + ": " + what + " (" + std::strerror(error) + ")");
 }
 
-/// A name of its own beside `path`, not built from its last part, which may be as long as the system allows.
-std::string temporary_name(const std::string& path) {
+/// A name of its own beside `target`, not built from its last part, which may be as long as the system allows.
+std::string temporary_name(const std::string& target) {
     static std::atomic<uint64_t> number{0};
     const std::string name = ".rawtexel-" + std::to_string(::getpid()) + "-" + std::to_string(number++) + ".part";
-    return (std::filesystem::path(path).parent_path() / name).string();
+    return (std::filesystem::path(target).parent_path() / name).string();
 }
 
 /// A file under a temporary name that is removed unless it is published.
 class TemporaryFile {
   public:
-    explicit TemporaryFile(const std::string& path) : path_(path), temporary_(temporary_name(path)) {
+    explicit TemporaryFile(const std::string& path) : path_(path), target_(written_path(path)), temporary_(temporary_name(target_)) {
         file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file_ < 0) fail(path_, "cannot be written", errno);
     }
@@ -54,21 +54,24 @@ class TemporaryFile {
         const int closed = ::close(file_);
         file_ = -1;
         if (closed != 0) fail(path_, "cannot be written whole", errno);
-        if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(path_, "cannot be replaced", errno);
+        if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, "cannot be replaced", errno);
         published_ = true;
     }
 
   private:
-    std::string path_, temporary_;
+    std::string path_, target_, temporary_;
     int file_ = -1;
     bool published_ = false;
 };
 
-/// Devices such as /dev/null are written to, not replaced.
-bool is_special(const std::string& path) {
-    std::error_code ignored;
-    const auto status = std::filesystem::status(path, ignored);
-    return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) && !std::filesystem::is_directory(status);
+/// What no attempt to create a file beside the place would show: a folder in its place, a name that no file can have.
+void check_place(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) == 0) {
+        if (S_ISDIR(status.st_mode)) fail(path, "cannot be written", EISDIR);
+    } else if (errno != ENOENT) {
+        fail(path, "cannot be written", errno);
+    }
 }
 
 void write_special(const std::string& path, std::span<const std::byte> bytes) {
@@ -80,12 +83,34 @@ void write_special(const std::string& path, std::span<const std::byte> bytes) {
 
 }  // namespace
 
+std::string written_path(const std::string& path) {
+    constexpr int kMaxLinks = 40;  // as many as Linux follows (path_resolution(7))
+    std::filesystem::path target(path);
+    std::error_code ignored;
+    for (int links = 0; std::filesystem::is_symlink(target, ignored); ++links) {
+        if (links == kMaxLinks) fail(path, "cannot be written", ELOOP);
+        target = target.parent_path() / std::filesystem::read_symlink(target, ignored);  // an absolute one replaces all before it
+    }
+    return target.string();
+}
+
+bool is_special(const std::string& path) {
+    std::error_code ignored;
+    const auto status = std::filesystem::status(path, ignored);
+    return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) && !std::filesystem::is_directory(status);
+}
+
 void write_file(const std::string& path, std::span<const std::byte> bytes) {
-    if (std::error_code ignored; std::filesystem::is_directory(path, ignored)) fail(path, "cannot be written", EISDIR);
+    check_place(path);
     if (is_special(path)) return write_special(path, bytes);
     TemporaryFile file(path);
     file.write(bytes);
     file.publish();
+}
+
+void check_writable(const std::string& path) {
+    check_place(path);
+    if (!is_special(path)) TemporaryFile unpublished(path);
 }
 
 }  // namespace rawtexel::scenes
