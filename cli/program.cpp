@@ -11,7 +11,7 @@
 #include "cli/version.h"
 #include "scenes/image_io.h"
 #include "scenes/load.h"
-#include "scenes/spelling.h"
+#include "scenes/message_text.h"
 #include "texunit/texel_source.h"
 
 #include <algorithm>

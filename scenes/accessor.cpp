@@ -1,5 +1,7 @@
 #include "scenes/accessor.h"
 
+#include "scenes/message_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -112,7 +114,8 @@ Accessor Accessors::checked(int index) const {
         for (const GltfBuffer& buffer : document_.buffers) held += buffer.bytes.size();
         if (accessor.count > held + kFreeZeros)
             document_.fail(name_of(index) + " has " + std::to_string(accessor.count) +
-                           " elements without a buffer view (allowed: " + std::to_string(held + kFreeZeros) + ")");
+                           " elements without a buffer view, all zero (allowed: " + std::to_string(kFreeZeros) +
+                           " and one for each of the file's " + std::to_string(held) + " bytes)");
     } else {
         const std::span<const std::byte> view = document_.view(source.bufferView);
         const uint64_t declared_stride = document_.model.bufferViews[size_t(source.bufferView)].byteStride;
@@ -209,7 +212,7 @@ std::vector<float> Accessors::read_floats(const Accessor& accessor, std::span<co
     const auto bad = std::ranges::find_if(values, [](float v) { return !std::isfinite(v); });
     if (bad != values.end()) {
         const size_t element = size_t(bad - values.begin()) / size_t(accessor.components);
-        document_.fail(use.what + " holds " + std::to_string(*bad) + " at element " + std::to_string(elements[element]) +
+        document_.fail(use.what + " holds " + print_short(*bad) + " at element " + std::to_string(elements[element]) +
                        " (allowed: finite numbers)");
     }
     return values;

@@ -4,7 +4,8 @@
 #include "scenes/gltf_schema.h"
 #include "scenes/gltf_uri.h"
 #include "scenes/image_io.h"
-#include "scenes/spelling.h"
+#include "scenes/message_text.h"
+#include "scenes/utf8.h"
 
 #include <nlohmann/json.hpp>
 
@@ -44,12 +45,28 @@ int nesting(std::string_view text) {
     return deepest;
 }
 
+[[noreturn]] void fail_json(const std::string& path, const std::string& what) {
+    throw InputError(path + ": not valid JSON (" + what + ")");
+}
+
+/// What stands at byte `number` of a text, counted from 1, where it may not.
+std::string misplaced(std::string_view text, size_t number) {
+    const std::string byte = "byte " + std::to_string(number) + ": ";
+    if (number == 0 || number > text.size()) return byte + "the text ends too early";
+    const std::string character = one_line(text.substr(number - 1, utf8_character(text, number - 1)));
+    return byte + (character.empty() ? "a control character" : "'" + character + "'") + " is out of place";
+}
+
 json parse_json(const std::string& path, std::string_view text) {
     if (nesting(text) > kMaxNesting) throw InputError(path + ": JSON nested deeper than " + std::to_string(kMaxNesting) + " levels");
+    if (const size_t invalid = find_invalid_utf8(text); invalid != text.npos)
+        fail_json(path, "byte " + std::to_string(invalid + 1) + ": not UTF-8");
     try {
         return json::parse(text.begin(), text.end());
-    } catch (const json::exception& error) {
-        throw InputError(path + ": not valid JSON (" + one_line(error.what()) + ")");
+    } catch (const json::parse_error& error) {
+        fail_json(path, misplaced(text, error.byte));
+    } catch (const json::exception&) {
+        fail_json(path, "a number is too large");
     }
 }
 
@@ -69,27 +86,31 @@ void tell_of_animations(const GltfDocument& document, const json& original, cons
     if (animations != original.end() && !animations->empty()) options.warn(document.path + ": animations are left out");
 }
 
+/// What messages call the owner of a URI, such as "buffers[0] 'scene.bin'".
+std::string owner_of(const std::string& what, const std::string& uri) { return what + " '" + shortened(uri) + "'"; }
+
 /// Reads what URIs name, each file once.
 class Resources {
   public:
-    explicit Resources(GltfDocument& document) : document_(document) {}
+    Resources(GltfDocument& document, const LoadOptions& options) : document_(document), options_(options) {}
 
-    /// `what` is the owner in messages, such as "buffers[0]". Sets `mime_type` where the URI tells it.
+    /// `what` holds the URI, such as "buffers[0]". Sets `mime_type` where the URI tells it.
     SharedBytes read(const std::string& uri, const std::string& what, std::string& mime_type) {
+        const std::string owner = owner_of(what, uri);
         if (is_data_uri(uri)) {
             auto data = decode_data_uri(uri);
-            if (!data) document_.fail(what + " is a malformed data URI");
+            if (!data) document_.fail(owner + " is a malformed data URI");
             if (mime_type.empty()) mime_type = data->mime_type;
             return std::make_shared<const std::vector<std::byte>>(std::move(data->bytes));
         }
-        if (uri.empty() || uri.find('\0') != uri.npos || percent_decoded(uri).find('\0') != std::string::npos)
-            document_.fail(what + " has an unusable URI");
-        if (leaves_the_folder_tree(uri)) document_.fail(what + " refers to " + one_line(uri) + " (allowed: relative paths and data URIs)");
-        return read_relative(uri);
+        if (uri.empty()) document_.fail(what + " has an empty URI");
+        if (percent_decoded(uri).find('\0') != std::string::npos) document_.fail(owner + " holds a zero byte");
+        if (leaves_the_folder_tree(uri)) document_.fail(what + " refers to " + shortened(uri) + " (allowed: relative paths and data URIs)");
+        return read_relative(uri, owner);
     }
 
   private:
-    SharedBytes read_relative(const std::string& uri) {
+    SharedBytes read_relative(const std::string& uri, const std::string& owner) {
         auto [entry, is_new] = files_.try_emplace(uri);
         if (!is_new) return entry->second;
         const std::filesystem::path folder = std::filesystem::path(document_.path).parent_path();
@@ -97,12 +118,21 @@ class Resources {
         // Exporters that do not escape write the file's name as it is.
         std::error_code ignored;
         if (!std::filesystem::exists(file, ignored) && std::filesystem::exists(folder / uri, ignored)) file = folder / uri;
-        entry->second = std::make_shared<const std::vector<std::byte>>(read_file(file.string()));
+        entry->second = std::make_shared<const std::vector<std::byte>>(read_named(file.string(), owner));
         document_.memory->grant(entry->second->size());
+        options_.opened(file.string());
         return entry->second;
     }
 
+    /// Failures are told of the owner: the file's own name, which read_file puts first, may be anything.
+    std::vector<std::byte> read_named(const std::string& file, const std::string& owner) const try {
+        return read_file(file);
+    } catch (const InputError& error) {
+        document_.fail(owner + std::string(error.what()).substr(file.size()));
+    }
+
     GltfDocument& document_;
+    const LoadOptions& options_;
     std::map<std::string, SharedBytes> files_;
 };
 
@@ -118,7 +148,7 @@ void read_buffers(GltfDocument& document, const json& checked, Resources& resour
             const std::string uri = buffers[i]["uri"].get<std::string>();
             std::string mime_type;
             const SharedBytes bytes = resources.read(uri, what, mime_type);
-            if (uri.rfind("data:", 0) != 0) what += " '" + uri + "'";
+            if (!is_data_uri(uri)) what = owner_of(what, uri);
             buffer.owner = bytes;
             buffer.bytes = *bytes;
         } else if (i == 0 && binary) {
@@ -159,10 +189,12 @@ void read_images(GltfDocument& document, const json& checked, Resources& resourc
     for (size_t i = 0; i < images.size(); ++i) {
         const json& image = images[i];
         const std::string what = "images[" + std::to_string(i) + "]";
-        GltfImage result{image_name(image, i), image.value("mimeType", std::string()), nullptr};
+        GltfImage result{image_name(image, i), image.value("mimeType", std::string()), {}, nullptr};
         if (image.contains("uri") == image.contains("bufferView")) document.fail(what + " needs either a uri or a bufferView");
         if (image.contains("uri")) {
-            result.encoded = resources.read(image["uri"].get<std::string>(), what, result.mime_type);
+            const std::string uri = image["uri"].get<std::string>();
+            result.encoded = resources.read(uri, what, result.mime_type);
+            if (!is_data_uri(uri)) result.file_name = percent_decoded(uri);
         } else {
             SharedBytes& bytes = from_views[image["bufferView"].get<int>()];
             if (!bytes) {
@@ -213,6 +245,7 @@ GltfDocument read_gltf_document(const std::string& path, const LoadOptions& opti
     document.memory = std::make_shared<MemoryAllowance>(path);
     const auto file = std::make_shared<const std::vector<std::byte>>(read_file(path));
     document.memory->grant(file->size());
+    options.opened(path);
     const GltfContainer container = split_gltf(path, *file);
     if (container.json.size() > kMaxJsonBytes)
         document.fail("JSON of " + std::to_string(container.json.size()) + " bytes (allowed: 2 GiB)");
@@ -227,7 +260,7 @@ GltfDocument read_gltf_document(const std::string& path, const LoadOptions& opti
     check_extensions(document, checked, options);
     tell_of_animations(document, original, options);
     document.model = parse_model(document, checked);
-    Resources resources(document);
+    Resources resources(document, options);
     read_buffers(document, checked, resources, file, container.binary);
     check_buffer_views(document);
     read_images(document, checked, resources);

@@ -25,6 +25,7 @@ struct GltfBuffer {
 struct GltfImage {
     std::string name;       ///< for messages and the texture: the image's own name, else its file's, else its number
     std::string mime_type;  ///< as declared; may be empty
+    std::string file_name;  ///< empty when it comes from a data URI or a buffer
     std::shared_ptr<const std::vector<std::byte>> encoded;
 };
 

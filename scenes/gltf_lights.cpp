@@ -1,8 +1,9 @@
 #include "scenes/gltf_lights.h"
 
-#include "scenes/spelling.h"
+#include "scenes/message_text.h"
 
 #include <cmath>
+#include <optional>
 
 namespace rawtexel::scenes {
 namespace {
@@ -21,21 +22,33 @@ glm::mat4 rigid(const glm::dmat4& world) {
     return glm::mat4(glm::dmat4(glm::dvec4(x, 0.0), glm::dvec4(glm::cross(z, x), 0.0), glm::dvec4(z, 0.0), world[3]));
 }
 
+std::optional<shading::Light::Type> light_type(const std::string& name) {
+    if (name == "directional") return shading::Light::Type::Directional;
+    if (name == "point") return shading::Light::Type::Point;
+    if (name == "spot") return shading::Light::Type::Spot;
+    return std::nullopt;
+}
+
 }  // namespace
+
+void check_lights(const GltfDocument& document) {
+    for (size_t i = 0; i < document.model.lights.size(); ++i) {
+        const tinygltf::Light& light = document.model.lights[i];
+        const std::string what = "KHR_lights_punctual.lights[" + std::to_string(i) + "]";
+        const auto type = light_type(light.type);
+        if (!type) document.fail(what + ".type is \"" + shortened(light.type) + "\" (allowed: directional, point, spot)");
+        const double inner = light.spot.innerConeAngle, outer = light.spot.outerConeAngle;
+        if (type == shading::Light::Type::Spot && !(inner < outer))
+            document.fail(what + ".spot has an inner cone of " + print_short(inner) + " and an outer cone of " + print_short(outer) +
+                          " radians (the inner must be smaller)");
+    }
+}
 
 shading::Light read_light(const GltfDocument& document, int index, const glm::dmat4& world) {
     const tinygltf::Light& source = document.model.lights[size_t(index)];
-    const std::string what = "KHR_lights_punctual.lights[" + std::to_string(index) + "]";
     shading::Light light;
     light.name = source.name.empty() ? "light " + std::to_string(index) : one_line(source.name);
-    if (source.type == "directional")
-        light.type = shading::Light::Type::Directional;
-    else if (source.type == "point")
-        light.type = shading::Light::Type::Point;
-    else if (source.type == "spot")
-        light.type = shading::Light::Type::Spot;
-    else
-        document.fail(what + ".type is \"" + one_line(source.type) + "\" (allowed: directional, point, spot)");
+    light.type = *light_type(source.type);
     if (!source.color.empty()) light.color = glm::vec3(source.color[0], source.color[1], source.color[2]);
     light.intensity = float(source.intensity);
     light.range = float(source.range);
@@ -43,9 +56,6 @@ shading::Light read_light(const GltfDocument& document, int index, const glm::dm
     light.direction = glm::vec3(unit_or(-glm::dvec3(world[2]), {0.0, 0.0, -1.0}));
     light.inner_cone = float(source.spot.innerConeAngle);
     light.outer_cone = float(source.spot.outerConeAngle);
-    if (light.type == shading::Light::Type::Spot && !(source.spot.innerConeAngle < source.spot.outerConeAngle))
-        document.fail(what + ".spot has an inner cone of " + std::to_string(source.spot.innerConeAngle) + " and an outer cone of " +
-                      std::to_string(source.spot.outerConeAngle) + " (the inner must be smaller)");
     return light;
 }
 
@@ -71,8 +81,8 @@ shading::Camera read_camera(const GltfDocument& document, int index, const glm::
     }
     const bool unlimited = perspective && camera.zfar == 0.0f;
     if (!unlimited && !(camera.zfar > camera.znear))
-        document.fail(what + " has its far plane at " + std::to_string(zfar) + " (allowed: beyond the near plane at " +
-                      std::to_string(znear) + ")");
+        document.fail(what + " has its far plane at " + print_short(zfar) + " (allowed: beyond the near plane at " + print_short(znear) +
+                      ")");
     return camera;
 }
 

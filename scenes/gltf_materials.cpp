@@ -1,6 +1,6 @@
 #include "scenes/gltf_materials.h"
 
-#include "scenes/spelling.h"
+#include "scenes/message_text.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include "scenes/gltf_primitive.h"
 
 #include "scenes/gltf_frames.h"
-#include "scenes/spelling.h"
+#include "scenes/message_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,7 +64,10 @@ class PrimitiveReader {
         }
         shading::Mesh mesh;
         mesh.name = mesh_name();
-        mesh.indices = triangle_list(read_vertices(), source_.mode);
+        std::vector<uint32_t> vertices = read_vertices();
+        if (source_.mode == TINYGLTF_MODE_TRIANGLES ? vertices.size() % 3 != 0 : vertices.size() < 3)
+            notices_.say_once("incomplete triangles are left out");
+        mesh.indices = triangle_list(std::move(vertices), source_.mode);
         if (mesh.indices.empty()) return std::nullopt;
         const std::vector<uint32_t> used = compact(mesh.indices);
         read_attributes(mesh, used);

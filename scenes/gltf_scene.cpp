@@ -10,7 +10,7 @@
 #include "scenes/gltf_notices.h"
 #include "scenes/gltf_primitive.h"
 #include "scenes/gltf_textures.h"
-#include "scenes/spelling.h"
+#include "scenes/message_text.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -27,13 +27,16 @@ class SceneBuilder {
           notices_(document.path, options),
           accessors_(document),
           textures_(document, options, notices_),
-          nodes_(flatten_nodes(document)) {}
+          nodes_(flatten_nodes(document)) {
+        check_lights(document);
+    }
 
     shading::Scene build() {
         read_names();
         scene_.materials = read_materials(document_, textures_, notices_);
         for (const int node : nodes_.shown) add_node(node);
         scene_.textures = textures_.take();
+        if (scene_.instances.empty()) notices_.say_once("there is nothing to draw");
         return std::move(scene_);
     }
 
@@ -96,10 +99,18 @@ class SceneBuilder {
         const PrimitiveRequest request{mesh, primitive, weights, pose, normal_map.texture >= 0 ? &normal_map : nullptr};
         auto read = read_primitive(document_, accessors_, request, notices_);
         if (!read) return std::nullopt;
+        tell_of_missing_coordinates(*read, scene_.materials[drawn_material]);
         read->material = drawn_material;
         entry->second = uint32_t(scene_.meshes.size());
         scene_.meshes.push_back(std::move(*read));
         return entry->second;
+    }
+
+    void tell_of_missing_coordinates(const shading::Mesh& mesh, const shading::Material& material) {
+        for (const shading::TextureMap& map : material.maps)
+            if (map.texture >= 0 && mesh.uv[size_t(map.uv_set)].empty())
+                notices_.say_once("meshes without TEXCOORD_" + std::to_string(map.uv_set) +
+                                  " show one point of the textures that their materials put on it");
     }
 
     /// What primitives without a material are drawn with (glTF 2.0, 3.9.6), made when one is met.
@@ -121,11 +132,35 @@ class SceneBuilder {
     std::optional<uint32_t> default_material_;
 };
 
+/// The largest of each axis, without signs.
+glm::dvec3 extent_of(const shading::Mesh& mesh) {
+    glm::dvec3 extent(0.0);
+    for (const glm::vec3& position : mesh.positions) extent = glm::max(extent, glm::dvec3(glm::abs(position)));
+    return extent;
+}
+
+/// A bound on every coordinate of what is drawn, computed where single precision would overflow.
+double scene_reach(const shading::Scene& scene) {
+    std::vector<glm::dvec3> extents;
+    for (const shading::Mesh& mesh : scene.meshes) extents.push_back(extent_of(mesh));
+    double reach = 0.0;
+    for (const shading::Instance& instance : scene.instances) {
+        const glm::dmat4 world(instance.world_from_object);
+        glm::dvec3 coordinates = glm::abs(glm::dvec3(world[3]));
+        for (int i = 0; i < 3; ++i) coordinates += glm::abs(glm::dvec3(world[i])) * extents[instance.mesh][i];
+        for (int axis = 0; axis < 3; ++axis) reach = std::max(reach, coordinates[axis]);
+    }
+    return reach;
+}
+
 }  // namespace
 
 shading::Scene load_gltf(const std::string& path, const LoadOptions& options) {
     const GltfDocument document = read_gltf_document(path, options);
-    return SceneBuilder(document, options).build();
+    shading::Scene scene = SceneBuilder(document, options).build();
+    const double reach = scene_reach(scene);
+    if (!(reach < kMaxReach)) document.fail("the scene reaches " + print_short(reach) + " metres (allowed: below 1e15)");
+    return scene;
 }
 
 }  // namespace rawtexel::scenes

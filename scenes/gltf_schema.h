@@ -1,4 +1,4 @@
-// The shape that glTF 2.0 gives its JSON, as tables, and the check of a document against them.
+// The check of a document against the shape that glTF 2.0 gives it (scenes/gltf_schema_rules.h).
 #pragma once
 
 #include <nlohmann/json.hpp>

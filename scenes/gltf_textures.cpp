@@ -1,7 +1,8 @@
 #include "scenes/gltf_textures.h"
 
+#include "scenes/image_claim.h"
 #include "scenes/image_codec.h"
-#include "scenes/spelling.h"
+#include "scenes/message_text.h"
 
 #include "texunit/containers.h"
 
@@ -84,6 +85,7 @@ GltfTextures::GltfTextures(const GltfDocument& document, const LoadOptions& opti
     : document_(document), texture_options_(options.texture), file_options_(options.files), notices_(notices) {
     for (size_t i = 0; i < document.images.size(); ++i) {
         const GltfImage& image = document.images[i];
+        check_image_claim(document.path + ": " + image.name, image.mime_type, image.file_name, *image.encoded);
         const EncodedBytes bytes(image.name, image.encoded);
         // A texture that has a plain source does not need this one.
         if (texunit::container_kind(bytes) == ContainerKind::Ktx2 && is_basis_universal(*image.encoded)) continue;
@@ -111,7 +113,7 @@ int GltfTextures::image_of(int index) {
     const std::string what = "textures[" + std::to_string(index) + "]";
     if (const int dds = extension_source(texture, "MSFT_texture_dds"); dds >= 0) return dds;
     const int ktx2 = extension_source(texture, "KHR_texture_basisu");
-    if (ktx2 < 0 && texture.source < 0) document_.fail(what + " has no source that can be read");
+    if (ktx2 < 0 && texture.source < 0) notices_.say_once(what + " has no image, it is white");
     if (ktx2 < 0) return texture.source;
     if (!is_basis_universal(*document_.images[size_t(ktx2)].encoded)) return ktx2;
     if (texture.source < 0)
@@ -123,6 +125,7 @@ int GltfTextures::image_of(int index) {
 
 int GltfTextures::texture(int index, bool srgb) {
     const int image = image_of(index);
+    if (image < 0) return image;
     const auto [entry, is_new] = known_.try_emplace({image, srgb}, int(textures_.size()));
     if (!is_new) return entry->second;
 

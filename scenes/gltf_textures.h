@@ -18,7 +18,8 @@ class GltfTextures {
     /// Opens every image of the document, used or not. Throws InputError.
     GltfTextures(const GltfDocument& document, const LoadOptions& options, GltfNotices& notices);
 
-    /// Index into `textures()` of glTF texture `texture` read as sRGB-encoded colour or as data. Throws InputError.
+    /// Index into `textures()` of glTF texture `texture` read as sRGB-encoded colour or as data; -1 when it has no image, as glTF allows.
+    /// Throws InputError.
     int texture(int texture, bool srgb);
     /// Its sampler; silent properties are bilinear, linear between levels, and repeat.
     texunit::SamplerState sampler(int texture) const;
@@ -26,7 +27,7 @@ class GltfTextures {
     std::vector<shading::SceneTexture> take() { return std::move(textures_); }
 
   private:
-    int image_of(int texture);
+    int image_of(int texture);  ///< -1: none
     std::unique_ptr<texunit::TexelSource> open(int image, bool srgb) const;
 
     const GltfDocument& document_;

@@ -1,7 +1,7 @@
 #include "scenes/image_codec.h"
 
 #include "scenes/image_png.h"
-#include "scenes/spelling.h"
+#include "scenes/message_text.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -202,6 +202,12 @@ OIIO::ImageSpec output_spec(const PixelData& data, const Metadata& metadata) {
     for (size_t c = 0; c < data.channel_names.size(); ++c)
         if (data.channel_names[c] == "A") spec.alpha_channel = int(c);
     spec["oiio:UnassociatedAlpha"] = 1;  // codes are written as they come
+    if (data.placement.whole_width > 0) {
+        spec.x = data.placement.x;
+        spec.y = data.placement.y;
+        spec.full_width = data.placement.whole_width;
+        spec.full_height = data.placement.whole_height;
+    }
     for (const auto& [key, value] : metadata) spec.attribute(key, value);
     return spec;
 }

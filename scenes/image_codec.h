@@ -24,9 +24,6 @@ struct ImageHeader {
 
 using Bytes = std::span<const std::byte>;
 
-/// The lower-case extension without its dot; empty when there is none.
-std::string extension_of(std::string_view path);
-
 /// The format that the first bytes are in ("png", "jpeg", "openexr", …), by `name`'s extension for formats without a signature;
 /// empty when neither says.
 std::string_view image_format(std::string_view name, Bytes encoded);
@@ -46,6 +43,7 @@ struct PixelData {
     std::vector<std::string> channel_names;  ///< one per channel
     SampleType type;
     const std::byte* pixels;
+    Placement placement = {};
 };
 
 /// The image in the format that goes with the extension of `path`. Throws OutputError naming `path`.

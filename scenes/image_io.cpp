@@ -1,5 +1,6 @@
 #include "scenes/image_io.h"
 
+#include "scenes/image_claim.h"
 #include "scenes/image_codec.h"
 #include "scenes/output_file.h"
 
@@ -88,6 +89,7 @@ std::vector<std::byte> read_file(const std::string& path) try {
 
 shading::Image read_image(const std::string& path, bool srgb_integers) try {
     const std::vector<std::byte> encoded = read_file(path);
+    check_image_claim(path, {}, path, encoded);
     const ImageHeader header = read_image_header(path, encoded);
     shading::Image image(header.width, header.height, header.channels);
     const bool integers = header.type == SampleType::Unorm8 || header.type == SampleType::Unorm16;
@@ -120,17 +122,20 @@ void write_8bit(const std::string& path, int width, int height, int channels, st
     write_encoded(path, {width, height, default_channel_names(channels), SampleType::Unorm8, pixels}, metadata);
 }
 
-void write_float(const std::string& path, const shading::Image& image, std::span<const shading::Layer> layers, const Metadata& metadata) {
+void write_float(const std::string& path, const shading::Image& image, std::span<const shading::Layer> layers, const Metadata& metadata,
+                 const Placement& placement) {
     assert(image.width > 0 && image.height > 0 && image.channels > 0);
     const bool open_exr = extension_of(path) == "exr";
     if (!layers.empty() && !open_exr) throw OutputError(path + ": further layers need an OpenEXR file (.exr)");
     if (!open_exr && is_writable_format(path) && !can_encode_alpha(path) && image.channels == 4) {
         shading::Image opaque(image.width, image.height, 3);
         opaque.values = leading_channels(std::span<const float>(image.values), 4, 3);
-        return write_float(path, opaque, layers, metadata);
+        return write_float(path, opaque, layers, metadata, placement);
     }
     std::vector<float> values;
-    write_encoded(path, interleave(image, layers, values), metadata);
+    PixelData data = interleave(image, layers, values);
+    if (open_exr) data.placement = placement;
+    write_encoded(path, data, metadata);
 }
 
 std::vector<std::byte> encode_png(int width, int height, int channels, int bits, std::span<const std::byte> pixels) {

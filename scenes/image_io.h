@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -42,11 +43,21 @@ using Metadata = std::vector<std::pair<std::string, std::string>>;
 
 /// Writes 8-bit codes (1, 3 or 4 channels) under a temporary name and renames. Format by extension. Throws OutputError.
 void write_8bit(const std::string& path, int width, int height, int channels, std::span<const uint8_t> codes, const Metadata& metadata);
+/// Where an image lies in a larger one of which it is a part; zero extents: it is the whole.
+struct Placement {
+    int x = 0, y = 0;                        ///< of the upper left pixel
+    int whole_width = 0, whole_height = 0;  ///< pixels
+};
+
 /// Writes linear floats; further layers become "layer.channel" in OpenEXR, and are refused with OutputError elsewhere.
-void write_float(const std::string& path, const shading::Image& image, std::span<const shading::Layer> layers, const Metadata& metadata);
+/// OpenEXR takes `placement` as its data and display windows.
+void write_float(const std::string& path, const shading::Image& image, std::span<const shading::Layer> layers, const Metadata& metadata,
+                 const Placement& placement = {});
 /// PNG in memory, 8 or 16 bits a channel, `channels` 1..4.
 std::vector<std::byte> encode_png(int width, int height, int channels, int bits, std::span<const std::byte> pixels);
 
+/// The lower-case extension without its dot; empty when there is none.
+std::string extension_of(std::string_view path);
 /// True when the extension names a format that stores floats (.exr .hdr .pfm .tif …).
 bool is_float_format(const std::string& path);
 /// True when OpenImageIO can write the extension.

@@ -1,11 +1,11 @@
 #include "scenes/load.h"
 
 #include "scenes/builtin.h"
+#include "scenes/message_text.h"
 #include "scenes/spelling.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <string_view>
 #include <vector>
 
 namespace rawtexel::scenes {
@@ -20,14 +20,14 @@ bool names_a_file(const std::string& scene) {
 }  // namespace
 
 shading::Scene load(const std::string& scene, const LoadOptions& options) {
-    std::vector<std::string_view> names;
+    std::vector<std::string> names;
     for (const BuiltinScene& builtin : builtin_scenes()) {
         if (builtin.name == scene) return builtin.make(options.texture);
-        names.push_back(builtin.name);
+        names.emplace_back(builtin.name);
     }
     if (names_a_file(scene)) return load_gltf(scene, options);
     throw InputError(one_line(scene) + ": no such scene (neither a .gltf or .glb file nor a built-in scene; the nearest is \"" +
-                     std::string(nearest_spelling(scene, names)) + "\")");
+                     nearest_spelling(scene, names) + "\")");
 }
 
 }  // namespace rawtexel::scenes

@@ -1,9 +1,26 @@
 #include "scenes/spelling.h"
 
 #include <algorithm>
+#include <cctype>
+#include <limits>
 #include <vector>
 
 namespace rawtexel::scenes {
+namespace {
+
+std::string lower_case(std::string_view text) {
+    std::string result(text);
+    std::ranges::transform(result, result.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return result;
+}
+
+// Twice the edits, so that an abbreviation can lie between "equal" and "one edit".
+int spelling_cost(std::string_view word, std::string_view candidate) {
+    const bool abbreviates = !word.empty() && word.size() < candidate.size() && candidate.starts_with(word);
+    return abbreviates ? 1 : 2 * spelling_distance(word, candidate);
+}
+
+}  // namespace
 
 int spelling_distance(std::string_view a, std::string_view b) {
     // Rows of the alignment table: the one before last is needed for swaps.
@@ -22,24 +39,18 @@ int spelling_distance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
-std::string_view nearest_spelling(std::string_view word, std::span<const std::string_view> candidates) {
-    const auto nearest = std::ranges::min_element(candidates, {}, [&](std::string_view c) { return spelling_distance(word, c); });
-    return nearest == candidates.end() ? std::string_view{} : *nearest;
-}
-
-std::string one_line(std::string_view text) {
-    std::string line;
-    bool gap = false;
-    for (const char c : text) {
-        if (static_cast<unsigned char>(c) <= ' ' || c == '\x7f') {
-            gap = !line.empty();
-            continue;
+std::string nearest_spelling(std::string_view word, std::span<const std::string> candidates) {
+    const std::string wanted = lower_case(word);
+    std::string best;
+    int best_cost = std::numeric_limits<int>::max();
+    for (const std::string& candidate : candidates) {
+        const int cost = spelling_cost(wanted, lower_case(candidate));
+        if (cost < best_cost) {
+            best_cost = cost;
+            best = candidate;
         }
-        if (gap) line += ' ';
-        gap = false;
-        line += c;
     }
-    return line;
+    return best;
 }
 
 }  // namespace rawtexel::scenes

@@ -59,7 +59,9 @@ std::string grey_dds() {
 /// The quad with that texture in place of its own.
 std::string write_grey_quad(const TemporaryFolder& folder) {
     const std::string scene = test::write_quad(folder);
-    test::write_file(folder / "texture.png", grey_dds());
+    test::write_file(folder / "texture.dds", grey_dds());
+    std::string json = test::read_file(scene);
+    test::write_file(scene, json.replace(json.find("texture.png"), 11, "texture.dds"));
     return scene;
 }
 

@@ -1,4 +1,5 @@
 // Containers, JSON, URIs, extensions: everything before the first vertex.
+#include "scenes/utf8.h"
 #include "tests/scenes/gltf_fixture.h"
 
 #include "scenes/gltf_uri.h"
@@ -37,11 +38,11 @@ TEST_F(GltfDocumentTest, TheContentDecidesNotTheExtension) {
 }
 
 TEST_F(GltfDocumentTest, MissingEmptyAndSpecialFilesAreNamed) {
-    EXPECT_TRUE(says(file_error(folder_.file("none.glb")), folder_.file("none.glb")));
+    EXPECT_TRUE(says(file_error(folder_ / "none.glb"), folder_ / "none.glb"));
     EXPECT_TRUE(says(text_error(""), "empty (0 bytes"));
     EXPECT_TRUE(says(file_error(folder_.path()), folder_.path()));
-    ASSERT_EQ(::mkfifo(folder_.file("pipe.glb").c_str(), 0600), 0);
-    EXPECT_NE(file_error(folder_.file("pipe.glb")), "");
+    ASSERT_EQ(::mkfifo((folder_ / "pipe.glb").c_str(), 0600), 0);
+    EXPECT_NE(file_error(folder_ / "pipe.glb"), "");
 }
 
 TEST_F(GltfDocumentTest, GlbHeadersAreChecked) {
@@ -72,6 +73,84 @@ TEST_F(GltfDocumentTest, JsonThatIsNotGltfIsRefused) {
     EXPECT_TRUE(says(text_error("{\"asset\": {\"version\": \"2.0\"}, \"nodes\": [7]}"), "nodes[0] is 7 (allowed: an object)"));
     EXPECT_EQ(text_error("{\"asset\": {\"version\": \"2.0\"}}"), "");
     EXPECT_EQ(text_error("\xef\xbb\xbf{\"asset\": {\"version\": \"2.1\"}}"), "");  // a byte order mark
+}
+
+TEST_F(GltfDocumentTest, MinimalVersionsAbove2Point0AreRefused) {
+    const auto with = [&](const char* version, const char* least) {
+        return text_error(nlohmann::json{{"asset", {{"version", version}, {"minVersion", least}}}}.dump());
+    };
+    EXPECT_EQ(with("2.0", "2.0"), "");
+    EXPECT_EQ(with("2.7", "2.0"), "");
+    EXPECT_TRUE(says(with("2.1", "2.1"), "asset.minVersion is \"2.1\" (allowed: at most \"2.0\")"));
+    EXPECT_TRUE(says(with("2.0", "2.10"), "asset.minVersion is \"2.10\" (allowed: at most"));
+    EXPECT_TRUE(says(with("2.0", "3.0"), "asset.minVersion is \"3.0\" (allowed: at most"));
+    for (const char* odd : {"2", "2.", ".0", "2.0.1", "2.x", "", "-2.0"}) {
+        EXPECT_TRUE(says(with("2.0", odd), "asset.minVersion is \"" + std::string(odd) + "\" (allowed: two numbers")) << odd;
+        EXPECT_NE(with(odd, "2.0"), "") << odd;
+    }
+}
+
+TEST_F(GltfDocumentTest, JsonErrorsNameTheByteInWordsOfOurOwn) {
+    EXPECT_TRUE(says(text_error("{\"a\": nul}"), "not valid JSON (byte 10: '}' is out of place)"));
+    EXPECT_TRUE(says(text_error("{\"a\": 1"), "the text ends too early)"));
+    EXPECT_TRUE(says(text_error("{\"a\n\": 1}"), "not valid JSON (byte 4: a control character is out of place)"));
+    EXPECT_TRUE(says(text_error("{\"a\xff\": 1}"), "not valid JSON (byte 4: not UTF-8)"));
+    EXPECT_TRUE(says(text_error("\xff\xfe{"), "not valid JSON (byte 1: not UTF-8)"));
+    EXPECT_TRUE(says(text_error("{\"a\": \u00e9}"), "not valid JSON (byte 7: '\u00e9' is out of place)"));
+    EXPECT_TRUE(says(text_error("{\"a\": 1e999}"), "not valid JSON (a number is too large)"));
+    // Whatever stands in a file, the message is UTF-8 and no library speaks.
+    for (int byte = 1; byte < 256; ++byte) {
+        const std::string error = text_error("{\"asset\": " + std::string(1, char(byte)) + "}");
+        EXPECT_EQ(find_invalid_utf8(error), error.npos) << byte << ": " << error;
+        EXPECT_EQ(error.find("json.exception"), error.npos) << error;
+    }
+}
+
+TEST_F(GltfDocumentTest, NumbersInMessagesAreWords) {
+    fixture_.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 4}, {"znear", 0.1}}}}};
+    EXPECT_TRUE(says(error(), "cameras[0].perspective.yfov is 4 (allowed: an angle in radians above 0 and below pi, 180\u00b0)"));
+    fixture_.json["cameras"][0]["perspective"] = {{"yfov", 1}, {"znear", 0}};
+    EXPECT_TRUE(says(error(), "cameras[0].perspective.znear is 0 (allowed: a number above 0)"));
+    fixture_.json.erase("cameras");
+    fixture_.json["samplers"] = {{{"wrapS", 33069}}};
+    EXPECT_TRUE(says(error(), "samplers[0].wrapS is 33069 (allowed: 33071 CLAMP_TO_EDGE, 33648 MIRRORED_REPEAT, 10497 REPEAT)"));
+    fixture_.json.erase("samplers");
+    fixture_.json["accessors"][0].erase("bufferView");
+    fixture_.json["accessors"][0]["count"] = 100000000;
+    EXPECT_TRUE(
+        says(error(), "accessors[0] has 100000000 elements without a buffer view, all zero (allowed: 65536 and one for each of the file's"));
+    fixture_.json["accessors"][0]["count"] = 1e300;
+    EXPECT_TRUE(says(error(), "(allowed: an integer from 1 to 2^53)"));
+}
+
+TEST_F(GltfDocumentTest, ErrorsOfNamedFilesNameTheSceneToo) {
+    const auto buffer_error = [&](const std::string& uri) {
+        fixture_.json["buffers"] = {{{"byteLength", 4}, {"uri", uri}}};
+        return text_error(fixture_.json.dump());
+    };
+    const std::string scene = folder_ / "scene.gltf";
+    EXPECT_EQ(buffer_error("."), scene + ": buffers[0] '.': is not a regular file");
+    EXPECT_EQ(buffer_error("none.bin"), scene + ": buffers[0] 'none.bin': cannot be opened: No such file or directory");
+    EXPECT_EQ(buffer_error(""), scene + ": buffers[0] has an empty URI");
+    EXPECT_EQ(buffer_error("a%00b"), scene + ": buffers[0] 'a%00b' holds a zero byte");
+    EXPECT_EQ(buffer_error("data:;base64," + std::string(1000, '!')),
+              scene + ": buffers[0] 'data:;base64,!!!!!!!!!!!!!!!!!!!!!!!!!!!...' is a malformed data URI");
+    fixture_.json["images"] = {{{"uri", "none.png"}}};
+    fixture_.json.erase("buffers");
+    EXPECT_TRUE(says(error(), ": images[0] 'none.png': cannot be opened"));
+}
+
+TEST_F(GltfDocumentTest, EveryFileReadIsTold) {
+    folder_.write("scene.bin", fixture_.binary);
+    folder_.write("image.png", test_png());
+    fixture_.json["buffers"] = {{{"byteLength", fixture_.binary.size()}, {"uri", "scene.bin"}}};
+    fixture_.json["images"] = {{{"uri", "image.png"}}, {{"uri", "image.png"}}, {{"uri", "data:;base64," + base64(test_png())}}};
+    std::vector<std::string> opened;
+    LoadOptions options;
+    options.opened = [&](const std::string& path) { opened.push_back(path); };
+    const std::string scene = folder_.write("scene.gltf", fixture_.json.dump());
+    load_gltf(scene, options);
+    EXPECT_EQ(opened, (std::vector<std::string>{scene, folder_ / "scene.bin", folder_ / "image.png"}));
 }
 
 TEST_F(GltfDocumentTest, DeepJsonIsRefusedWithoutRecursion) {

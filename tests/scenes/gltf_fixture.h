@@ -1,7 +1,8 @@
-// glTF files made for tests, and a folder to put them in.
+// glTF files made for tests.
 #pragma once
 
 #include "scenes/load.h"
+#include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -14,25 +15,7 @@
 
 namespace rawtexel::scenes {
 
-/// A folder of its own, removed with everything in it.
-class TemporaryFolder {
-  public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    const std::string& path() const { return path_; }
-    std::string file(const std::string& name) const { return path_ + "/" + name; }
-    /// Writes a file and returns its path.
-    std::string write(const std::string& name, std::span<const std::byte> bytes) const;
-    std::string write(const std::string& name, std::string_view text) const;
-    /// Names of what is in it, sorted.
-    std::vector<std::string> entries() const;
-
-  private:
-    std::string path_;
-};
+using test::TemporaryFolder;
 
 template <class T>
 std::vector<std::byte> bytes_of(const std::vector<T>& values) {

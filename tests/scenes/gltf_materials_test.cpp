@@ -180,7 +180,7 @@ TEST_F(GltfMaterialsTest, SamplersSayWrapAndFilters) {
         EXPECT_EQ(scene().materials.at(0).maps[shading::kNormal].sampler, c.expected) << c.sampler;
     }
     fixture_.json["samplers"] = {{{"wrapS", 12345}}};
-    EXPECT_TRUE(says(error(), "samplers[0].wrapS is 12345 (allowed: 33071, 33648, 10497)"));
+    EXPECT_TRUE(says(error(), "samplers[0].wrapS is 12345 (allowed: 33071 CLAMP_TO_EDGE, 33648 MIRRORED_REPEAT, 10497 REPEAT)"));
     fixture_.json["samplers"] = {{{"magFilter", 9987}}};
     EXPECT_TRUE(says(error(), "samplers[0].magFilter is 9987"));
 }
@@ -201,8 +201,6 @@ TEST_F(GltfMaterialsTest, IndicesOutsideTheirArraysAreRefused) {
     fixture_.json["textures"][0]["sampler"] = 0;
     EXPECT_TRUE(says(error(), "there are no samplers"));
     fixture_.json["textures"][0].erase("sampler");
-    fixture_.json["textures"][0].erase("source");
-    EXPECT_TRUE(says(error(), "textures[0] has no source"));
     fixture_.json["meshes"][0]["primitives"][0]["material"] = 7;
     EXPECT_TRUE(says(error(), "primitives[0].material is 7"));
 }

@@ -47,6 +47,74 @@ TEST_F(GltfMeshTest, EveryTriangleModeMakesItsTriangles) {
     EXPECT_EQ(triangles(mesh()), (Triangles{{1, 2, 0}, {2, 3, 0}, {3, 4, 0}, {4, 5, 0}}));
 }
 
+TEST_F(GltfMeshTest, IncompleteTrianglesAreLeftOutAndTold) {
+    const int positions = parabola(6);
+    fixture_.show({{"attributes", {{"POSITION", positions}}}});
+    mesh();
+    EXPECT_TRUE(warnings_.empty());
+    for (const auto& indices : {std::vector<uint16_t>{0, 1, 2, 3}, {0, 1, 2, 3, 4}}) {
+        primitive()["indices"] = fixture_.add_indices<uint16_t>(indices);
+        warnings_.clear();
+        EXPECT_EQ(triangles(mesh()), (Triangles{{0, 1, 2}}));
+        ASSERT_EQ(warnings_.size(), 1u);
+        EXPECT_TRUE(says(warnings_[0], "incomplete triangles are left out"));
+    }
+    primitive()["mode"] = 5;  // a strip may have any number above 2
+    warnings_.clear();
+    EXPECT_EQ(triangles(mesh()).size(), 3u);
+    EXPECT_TRUE(warnings_.empty());
+}
+
+TEST_F(GltfMeshTest, NothingToDrawIsTold) {
+    load_fixture(folder_, fixture_, &warnings_);
+    ASSERT_EQ(warnings_.size(), 1u);
+    EXPECT_TRUE(says(warnings_[0], "there is nothing to draw"));
+    const int positions = parabola(6), indices = fixture_.add_indices<uint16_t>({0, 1});
+    fixture_.show({{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"mode", 6}});
+    warnings_.clear();
+    load_fixture(folder_, fixture_, &warnings_);
+    ASSERT_EQ(warnings_.size(), 2u);
+    EXPECT_TRUE(says(warnings_[0], "incomplete triangles are left out"));
+    EXPECT_TRUE(says(warnings_[1], "there is nothing to draw"));
+}
+
+TEST_F(GltfMeshTest, TexturesWithoutTheirCoordinatesAreTold) {
+    fixture_.add("textures", {{"source", fixture_.add_image(test_png(), "image/png")}});
+    fixture_.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}}}}});
+    auto quad = quad_primitive(fixture_);
+    quad["material"] = 0;
+    fixture_.show(quad);
+    load_fixture(folder_, fixture_, &warnings_);
+    EXPECT_TRUE(warnings_.empty()) << warnings_[0];
+    primitive()["attributes"].erase("TEXCOORD_1");
+    load_fixture(folder_, fixture_, &warnings_);
+    ASSERT_EQ(warnings_.size(), 1u);
+    EXPECT_TRUE(says(warnings_[0], "meshes without TEXCOORD_1 show one point"));
+}
+
+TEST_F(GltfMeshTest, ScenesBeyondTheirReachAreRefused) {
+    const int positions = fixture_.add_vec3({0, 0, 0, 1, 0, 0, 0, 1, 0}),
+              huge = fixture_.add_vec3({-3e38f, -3e38f, 0, 3e38f, 0, 0, 0, 3e38f, 0});
+    fixture_.show({{"attributes", {{"POSITION", positions}}}});
+    nlohmann::json& node = fixture_.json["nodes"][0];
+    EXPECT_EQ(error(), "");
+    node["scale"] = {1e14, 1e14, 1e14};
+    EXPECT_EQ(error(), "");
+    node["scale"] = {1, 1e30, 1};
+    EXPECT_TRUE(says(error(), "the scene reaches 1e+30 metres (allowed: below 1e15)"));
+    node["scale"] = {1, 1, 1};
+    node["translation"] = {0, 0, -2e15};
+    EXPECT_TRUE(says(error(), "the scene reaches 2e+15 metres (allowed: below 1e15)"));
+    node.erase("translation");
+    primitive()["attributes"]["POSITION"] = huge;
+    EXPECT_TRUE(says(error(), "the scene reaches 3e+38 metres"));
+    node["scale"] = {1e-30, 1e-30, 1e-30};
+    EXPECT_EQ(error(), "");
+    // What is not drawn reaches nowhere.
+    fixture_.add_node({{"translation", {1e30, 0, 0}}});
+    EXPECT_EQ(error(), "");
+}
+
 TEST_F(GltfMeshTest, EveryIndexTypeIsRead) {
     const int positions = parabola(4);
     fixture_.show({{"attributes", {{"POSITION", positions}}}});
@@ -97,10 +165,11 @@ TEST_F(GltfMeshTest, PointsAndLinesAreLeftOutAndSaidOnce) {
     const shading::Scene scene = load_fixture(folder_, fixture_, &warnings_);
     EXPECT_TRUE(scene.meshes.empty());
     EXPECT_TRUE(scene.instances.empty());
-    ASSERT_EQ(warnings_.size(), 1u);
+    ASSERT_EQ(warnings_.size(), 2u);
     EXPECT_TRUE(says(warnings_[0], "points and lines are left out"));
+    EXPECT_TRUE(says(warnings_[1], "there is nothing to draw"));
     fixture_.json["meshes"][0]["primitives"][0]["mode"] = 7;
-    EXPECT_TRUE(says(error(), "mode is 7 (allowed: an integer from 0 to 6)"));
+    EXPECT_TRUE(says(error(), "mode is 7 (allowed: 0 POINTS, 1 LINES, 2 LINE_LOOP, 3 LINE_STRIP, 4 TRIANGLES, "));
 }
 
 TEST_F(GltfMeshTest, PositionIsRequired) {

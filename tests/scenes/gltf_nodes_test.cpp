@@ -157,6 +157,11 @@ TEST_F(GltfNodesTest, LightsTakePlaceAndDirectionFromTheirNodes) {
     EXPECT_TRUE(says(error(), "innerConeAngle is -0.5"));
     lights[2] = {{"type", "area"}};
     EXPECT_TRUE(says(error(), "type is \"area\" (allowed: directional, point, spot)"));
+    // Shown or not.
+    lights.push_back({{"type", "spot"}, {"spot", {{"innerConeAngle", 1}, {"outerConeAngle", 0.5}}}});
+    lights[2] = {{"type", "point"}};
+    EXPECT_TRUE(says(error(), "lights[3].spot has an inner cone of 1 and an outer cone of 0.5 radians (the inner must be smaller)"));
+    lights.erase(3);
     lights.erase(2);
     EXPECT_TRUE(says(error(), "light is 2 (allowed: an index of KHR_lights_punctual, 0 to 1)"));
 }

@@ -147,6 +147,41 @@ TEST_F(GltfTexturesTest, MoreTexelsThanTheOptionsAllowAreRefused) {
     EXPECT_TRUE(says(refusal(test_png(5, 3), "image/png", 59), "60 bytes of texels (at most 59 are allowed)"));
 }
 
+TEST_F(GltfTexturesTest, ATextureWithoutAnImageIsWhiteAndTold) {
+    fixture_.add_image(test_png(), "image/png");
+    texture().erase("source");
+    const shading::Scene scene = load_fixture(folder_, fixture_, &warnings_);
+    EXPECT_EQ(scene.materials.at(0).maps[shading::kBaseColor].texture, -1);
+    EXPECT_TRUE(scene.textures.empty());
+    ASSERT_EQ(warnings_.size(), 1u);
+    EXPECT_TRUE(says(warnings_[0], "textures[0] has no image, it is white"));
+}
+
+TEST_F(GltfTexturesTest, ImagesAreWhatTheyAreDeclaredToBe) {
+    const std::vector<std::byte> png = test_png(), jpeg = bytes_of("\xff\xd8\xff\xe0 and so on");
+    fixture_.add_image(png, "image/jpeg");
+    EXPECT_TRUE(says(error(), "image 0: is PNG (declared: image/jpeg)"));
+    fixture_.json["images"][0] = {{"uri", "data:image/png;base64," + base64(jpeg)}};
+    EXPECT_TRUE(says(error(), "image 0: is JPEG (declared: image/png)"));
+    fixture_.json["images"][0] = {{"uri", "data:image/ktx2;base64," + base64(dds())}};
+    EXPECT_TRUE(says(error(), "image 0: is DDS (declared: image/ktx2)"));
+    folder_.write("lie.PNG", jpeg);
+    fixture_.json["images"][0] = {{"uri", "lie.PNG"}};
+    EXPECT_TRUE(says(error(), "lie.PNG: is JPEG (declared: .png, which is PNG)"));
+    folder_.write("lie.jpg", png);
+    fixture_.json["images"][0] = {{"uri", "lie.jpg"}, {"name", "bricks"}};
+    EXPECT_TRUE(says(error(), "bricks: is PNG (declared: .jpg, which is JPEG)"));
+    // A declared type comes before the name, and what names no format claims nothing.
+    fixture_.json["images"][0] = {{"uri", "lie.jpg"}, {"mimeType", "image/png"}};
+    EXPECT_EQ(error(), "");
+    folder_.write("picture.dat", png);
+    for (const nlohmann::json& honest :
+         {nlohmann::json{{"uri", "picture.dat"}}, nlohmann::json{{"uri", "lie.jpg"}, {"mimeType", "application/x"}}}) {
+        fixture_.json["images"][0] = honest;
+        EXPECT_EQ(error(), "") << honest;
+    }
+}
+
 TEST_F(GltfTexturesTest, EveryImageIsOpenedUsedOrNot) {
     fixture_.add_image(test_png(), "image/png");
     fixture_.add_image(bytes_of("this is no image"), "image/png");
