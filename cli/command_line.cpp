@@ -1,7 +1,7 @@
 #include "cli/command_line.h"
 
-#include "cli/option_values.h"
-#include "cli/spelling.h"
+#include "cli/word_list.h"
+#include "scenes/spelling.h"
 
 #include <CLI/CLI.hpp>
 
@@ -61,7 +61,7 @@ void CommandLine::Impl::check_for_repeats() const {
 
 void CommandLine::Impl::throw_unknown_option(const std::string& word) const {
     const std::string name = option_name(word);
-    throw UsageError("unknown option '" + name + "', the nearest is '" + nearest_spelling(name, option_names()) + "'");
+    throw UsageError("unknown option '" + name + "', the nearest is '" + scenes::nearest_spelling(name, option_names()) + "'");
 }
 
 // What the argument library did not recognise: unknown options, and the words that are no options.
@@ -76,6 +76,7 @@ void CommandLine::Impl::take_remaining(const std::vector<std::string>& remaining
         else
             words.push_back(word);
     }
+    if (std::ranges::find(words, std::string()) != words.end()) throw UsageError("an argument is empty (usage: rawtexel " + usage + ")");
     const size_t most = arguments ? arguments->most : 0;
     if (words.size() > most) throw UsageError("unexpected argument '" + words[most] + "' (usage: rawtexel " + usage + ")");
     if (!arguments) return;
@@ -116,7 +117,8 @@ void CommandLine::arguments(std::string name, std::string help, size_t least, si
 
 bool CommandLine::parse(const std::vector<std::string>& words) {
     if (std::ranges::any_of(words, [](const std::string& word) { return word == "--help" || word == "-h"; })) return false;
-    std::vector<std::string> reversed(words.rbegin(), words.rend());
+    std::vector<std::string> reversed = separate_short_values(words);
+    std::ranges::reverse(reversed);
     try {
         impl_->app.parse(reversed);
     } catch (const CLI::ArgumentMismatch&) {
@@ -129,6 +131,24 @@ bool CommandLine::parse(const std::vector<std::string>& words) {
     }
     impl_->take_remaining(impl_->app.remaining());
     return true;
+}
+
+// "-o=FILE" becomes "-o FILE": the argument library would take "=FILE" for the value.
+std::vector<std::string> CommandLine::separate_short_values(const std::vector<std::string>& words) const {
+    std::vector<std::string> result;
+    bool only_words = false;
+    for (const std::string& word : words) {
+        only_words = only_words || word == "--";
+        const bool is_value = !result.empty() && takes_value(result.back());
+        const bool joined = word.size() > 2 && word[0] == '-' && word[1] != '-' && word[2] == '=' && takes_value(word.substr(0, 2));
+        if (joined && !only_words && !is_value) {
+            result.push_back(word.substr(0, 2));
+            result.push_back(word.substr(3));
+        } else {
+            result.push_back(word);
+        }
+    }
+    return result;
 }
 
 bool CommandLine::takes_value(std::string_view option) const {
@@ -156,6 +176,7 @@ std::string CommandLine::help() const {
     }
     text += "\n";
     add("-h,--help", "this text");
+    add("--version", "the program's version");
     return text;
 }
 

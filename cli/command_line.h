@@ -38,6 +38,8 @@ class CommandLine {
     bool takes_value(std::string_view option) const;
 
   private:
+    std::vector<std::string> separate_short_values(const std::vector<std::string>& words) const;
+
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

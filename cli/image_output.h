@@ -3,9 +3,9 @@
 
 #include "cli/render_options.h"
 #include "scenes/image_io.h"
-#include "shading/image.h"
+#include "shading/display.h"
+#include "shading/render.h"
 
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -17,8 +17,13 @@ void check_image_format(std::string_view option, const std::string& path);
 /// True where further layers can be stored beside the image.
 bool stores_layers(const std::string& path);
 
-/// Linear radiance and layers into float formats; exposure, tone map and transfer into 8-bit ones. Throws scenes::OutputError.
-void write_image(const std::string& path, const shading::Image& radiance, std::span<const shading::Layer> layers, const ToneOptions& tone,
+/// What the options mean, defaults filled in.
+shading::DisplayOptions display_options(const ToneOptions& tone);
+
+/// Linear radiance and layers into float formats; exposure, tone map and transfer into 8-bit ones. With `tone.white_backdrop`, which needs
+/// `frame.coverage` and a frame over black, white is what shows where nothing is: radiance 1 in float formats, laid under the encoded
+/// colours of what is there in 8-bit ones. Throws scenes::OutputError.
+void write_image(const std::string& path, const shading::RenderResult& frame, const ToneOptions& tone, const scenes::Placement& placement,
                  const scenes::Metadata& metadata);
 
 }  // namespace rawtexel::cli

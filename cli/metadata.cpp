@@ -1,10 +1,12 @@
 #include "cli/metadata.h"
 
+#include "cli/image_output.h"
+#include "cli/option_values.h"
 #include "cli/version.h"
 
 namespace rawtexel::cli {
 
-scenes::Metadata image_metadata(const RunRecord& record) {
+scenes::Metadata image_metadata(const RunRecord& record, bool has_display_transform) {
     const RenderRequest& request = record.request;
     scenes::Metadata metadata{
         {"Software", "rawtexel " + std::string(version())},
@@ -16,9 +18,18 @@ scenes::Metadata image_metadata(const RunRecord& record) {
         {"rawtexel:seed", std::to_string(request.samples.seed)},
         {"rawtexel:spp", std::to_string(request.samples.spp)},
         {"rawtexel:pixel-filter", std::string(to_string(request.samples.pixel_filter))},
+        {"rawtexel:pixel-jitter", std::string(to_string(request.samples.pixel_jitter))},
         {"rawtexel:filter", print_filter(request.lookup.filter)},
         {"rawtexel:mip", print_mip(request.lookup.mip)},
+        {"rawtexel:mip-storage", print(request.lookup.mip_storage)},
     };
+    if (request.crop.width > 0) metadata.emplace_back("rawtexel:crop", print(request.crop));
+    if (has_display_transform) {
+        const shading::DisplayOptions display = display_options(request.tone);
+        metadata.emplace_back("rawtexel:exposure", print_number(display.exposure));
+        metadata.emplace_back("rawtexel:tonemap", std::string(to_string(display.tone_map)));
+        metadata.emplace_back("rawtexel:transfer", std::string(to_string(display.transfer)));
+    }
     if (!record.result.fetches.empty()) {
         const texunit::FetchCounts fetches = total_fetches(record.result);
         metadata.emplace_back("rawtexel:lookups", std::to_string(fetches.lookups));

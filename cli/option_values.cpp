@@ -1,6 +1,8 @@
 #include "cli/option_values.h"
 
-#include "cli/spelling.h"
+#include "cli/limits.h"
+#include "cli/word_list.h"
+#include "scenes/spelling.h"
 
 #include <array>
 #include <charconv>
@@ -19,10 +21,23 @@ bool read_whole(std::string_view text, T& value) {
     return error == std::errc() && end == text.data() + text.size();
 }
 
-std::string print_range(float lowest, float highest) {
-    if (lowest == std::numeric_limits<float>::lowest()) return "";
-    if (highest == std::numeric_limits<float>::max()) return " of at least " + print_number(lowest);
-    return " from " + print_number(lowest) + " to " + print_number(highest);
+/// 1e15, not 1e+15; 1e-6, not 1e-06.
+std::string print_bound(float value) {
+    std::string text = print_number(value);
+    const size_t exponent = text.find('e');
+    if (exponent == text.npos) return text;
+    size_t digits = exponent + 2;
+    while (digits + 1 < text.size() && text[digits] == '0') ++digits;
+    return text.substr(0, exponent + 1) + (text[exponent + 1] == '-' ? "-" : "") + text.substr(digits);
+}
+
+bool is_in(const NumberRange& range, float value) { return std::isfinite(value) && value >= range.lowest && value <= range.highest; }
+
+// As it ends "… is not a number".
+std::string print_wanted(const NumberRange& range) {
+    const NumberRange all;
+    if (range.lowest == all.lowest && range.highest == all.highest) return "";
+    return (range.highest == all.highest ? " of " : " from ") + print(range);
 }
 
 }  // namespace
@@ -34,18 +49,26 @@ int64_t parse_integer(std::string_view option, std::string_view text, int64_t lo
     return value;
 }
 
-float parse_number(std::string_view option, std::string_view text, float lowest, float highest) {
+std::string print(const NumberRange& range) {
+    const NumberRange all;
+    if (range.lowest == all.lowest && range.highest == all.highest) return "any number";
+    if (range.highest == all.highest) return "at least " + print_bound(range.lowest);
+    return print_bound(range.lowest) + " to " + print_bound(range.highest);
+}
+
+float parse_number(std::string_view option, std::string_view text, const NumberRange& range) {
     float value = 0.0f;
-    if (!read_whole(text, value) || !std::isfinite(value) || value < lowest || value > highest)
-        throw bad_value(option, text, "a number" + print_range(lowest, highest));
+    if (!read_whole(text, value) || !is_in(range, value)) throw bad_value(option, text, "a number" + print_wanted(range));
     return value;
 }
 
-std::vector<float> parse_numbers(std::string_view option, std::string_view text, std::string_view form, size_t least, size_t most) {
+std::vector<float> parse_numbers(std::string_view option, std::string_view text, std::string_view form, size_t least, size_t most,
+                                 const NumberRange& range) {
     std::vector<float> values;
     for (const std::string& word : split(text, ',')) {
         float value = 0.0f;
-        if (!read_whole(word, value) || !std::isfinite(value)) throw bad_value(option, text, std::string(form));
+        if (!read_whole(word, value)) throw bad_value(option, text, std::string(form));
+        if (!is_in(range, value)) throw bad_value(option, text, std::string(form) + print_wanted(range));
         values.push_back(value);
     }
     if (values.size() < least || values.size() > most) throw bad_value(option, text, std::string(form));
@@ -69,10 +92,11 @@ std::vector<int64_t> parse_integers(std::string_view option, std::string_view te
 }
 
 glm::vec3 parse_vector(std::string_view option, std::string_view text, std::string_view form) {
-    constexpr float kLargest = 1e15f;
-    const std::vector<float> values = parse_numbers(option, text, form, 3, 3);
-    for (const float value : values)
-        if (std::abs(value) > kLargest) throw bad_value(option, text, std::string(form) + print_range(-kLargest, kLargest));
+    return parse_vector(option, text, form, {-kMaxLength, kMaxLength});
+}
+
+glm::vec3 parse_vector(std::string_view option, std::string_view text, std::string_view form, const NumberRange& range) {
+    const std::vector<float> values = parse_numbers(option, text, form, 3, 3, range);
     return {values[0], values[1], values[2]};
 }
 
@@ -86,27 +110,9 @@ std::string print_vector(const glm::vec3& value) {
     return print_number(value.x) + "," + print_number(value.y) + "," + print_number(value.z);
 }
 
-std::vector<std::string> split(std::string_view text, char separator) {
-    std::vector<std::string> words;
-    size_t start = 0;
-    for (size_t end; (end = text.find(separator, start)) != std::string_view::npos; start = end + 1)
-        words.emplace_back(text.substr(start, end - start));
-    words.emplace_back(text.substr(start));
-    return words;
-}
-
-std::string join(std::span<const std::string> words, std::string_view separator) {
-    std::string result;
-    for (const std::string& word : words) {
-        if (!result.empty()) result += separator;
-        result += word;
-    }
-    return result;
-}
-
 UsageError unknown_value(std::string_view option, std::string_view text, std::span<const std::string> names) {
     return UsageError(std::string(option) + ": unknown value '" + std::string(text) + "', the nearest is '" +
-                      nearest_spelling(text, names) + "' (" + join(names, " ") + ")");
+                      scenes::nearest_spelling(text, names) + "' (" + join(names, " ") + ")");
 }
 
 size_t parse_word(std::string_view option, std::string_view text, std::initializer_list<std::string_view> names) {

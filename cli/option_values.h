@@ -15,24 +15,29 @@
 
 namespace rawtexel::cli {
 
+/// What a number may be, ends included.
+struct NumberRange {
+    float lowest = std::numeric_limits<float>::lowest(), highest = std::numeric_limits<float>::max();
+};
+/// "0.01 to 179", "at least 0", "any number".
+std::string print(const NumberRange& range);
+
 /// The readers take the whole text or throw UsageError "OPTION: 'TEXT' is not … (what is allowed)".
 int64_t parse_integer(std::string_view option, std::string_view text, int64_t lowest, int64_t highest);
-/// Finite, within [lowest, highest].
-float parse_number(std::string_view option, std::string_view text, float lowest = std::numeric_limits<float>::lowest(),
-                   float highest = std::numeric_limits<float>::max());
-/// `form` such as "X,Y,Z[,I]" is for the message; between `least` and `most` numbers separated by commas.
-std::vector<float> parse_numbers(std::string_view option, std::string_view text, std::string_view form, size_t least, size_t most);
+/// Finite and in range; throws UsageError otherwise, as all below.
+float parse_number(std::string_view option, std::string_view text, const NumberRange& range = {});
+/// `form` such as "X,Y,Z[,I]" is for the message; between `least` and `most` numbers separated by commas, each in range.
+std::vector<float> parse_numbers(std::string_view option, std::string_view text, std::string_view form, size_t least, size_t most,
+                                 const NumberRange& range = {});
 std::vector<int64_t> parse_integers(std::string_view option, std::string_view text, std::string_view form, size_t count, int64_t lowest,
                                     int64_t highest);
-/// Three numbers within [-1e15, 1e15]: their squares are finite.
+/// Three numbers, each in range; without one, within kMaxLength.
 glm::vec3 parse_vector(std::string_view option, std::string_view text, std::string_view form = "X,Y,Z");
+glm::vec3 parse_vector(std::string_view option, std::string_view text, std::string_view form, const NumberRange& range);
 
 /// Shortest decimal that reads back as the same float.
 std::string print_number(float value);
 std::string print_vector(const glm::vec3& value);
-
-std::vector<std::string> split(std::string_view text, char separator);
-std::string join(std::span<const std::string> words, std::string_view separator);
 
 /// "OPTION: unknown value 'TEXT', nearest is 'NAME' (all names)".
 UsageError unknown_value(std::string_view option, std::string_view text, std::span<const std::string> names);

@@ -5,13 +5,13 @@
 #include "cli/commands/export.h"
 #include "cli/commands/list.h"
 #include "cli/commands/render.h"
-#include "cli/option_values.h"
 #include "cli/run_record.h"
-#include "cli/spelling.h"
 #include "cli/version.h"
+#include "cli/word_list.h"
 #include "scenes/image_io.h"
 #include "scenes/load.h"
 #include "scenes/message_text.h"
+#include "scenes/spelling.h"
 #include "texunit/texel_source.h"
 
 #include <algorithm>
@@ -47,7 +47,8 @@ std::string program_help(const Commands& commands) {
         text += left + wrap_text(command->summary(), 98, 12) + "\n";
     }
     return text +
-           "\n`rawtexel COMMAND --help` lists a command's options. The order of words does not matter.\n\n"
+           "  help      This text, or that of a command: `rawtexel help COMMAND`, the same as `rawtexel COMMAND --help`.\n"
+           "\nThe order of words does not matter.\n\n"
            "Options:\n  -h,--help   this text\n  --version   the program's version\n\n"
            "Exit codes: 0 done, 1 a check asked for did not hold, 2 wrong usage, 3 input could not be read or is invalid,\n"
            "            4 output could not be written.\n";
@@ -72,29 +73,44 @@ std::optional<size_t> find_command_word(const Words& words, const Commands& comm
 }
 
 [[noreturn]] void throw_no_command(const Words& words, const Commands& commands) {
-    const Words names = names_of(commands);
+    Words names = names_of(commands);
+    names.emplace_back("help");
     const auto named = std::ranges::find_if(words, [](const std::string& word) { return !word.starts_with('-'); });
     if (named != words.end())
-        throw UsageError("unknown command '" + *named + "', the nearest is '" + nearest_spelling(*named, names) + "' (" + join(names, " ") +
-                         ")");
+        throw UsageError("unknown command '" + *named + "', the nearest is '" + scenes::nearest_spelling(*named, names) + "' (" +
+                         join(names, " ") + ")");
     if (words.empty()) throw UsageError("no command given; `rawtexel --help` lists them");
-    throw UsageError("unknown option '" + words[0] + "', the nearest is '" + nearest_spelling(words[0], Words{"--help", "--version"}) +
-                     "'");
+    throw UsageError("unknown option '" + words[0] + "', the nearest is '" +
+                     scenes::nearest_spelling(words[0], Words{"--help", "--version"}) + "'");
+}
+
+int help_on(const Words& subjects, const Invocation& invocation, const Commands& commands) {
+    if (subjects.size() > 1) throw UsageError("unexpected argument '" + subjects[1] + "' (usage: rawtexel help [COMMAND])");
+    if (subjects.empty() || subjects[0] == "--help" || subjects[0] == "-h" || subjects[0] == "help") {
+        invocation.out << program_help(commands);
+        return kDone;
+    }
+    const auto command = std::ranges::find(commands, subjects[0], [](const auto& each) { return each->name(); });
+    if (command == commands.end()) throw_no_command(subjects, commands);
+    CommandLine line{std::string((*command)->usage()), std::string((*command)->summary())};
+    invocation.out << declare(line, **command).help();
+    return kDone;
 }
 
 int dispatch(const Words& words, const Invocation& invocation) {
     const Commands commands = all_commands();
+    const auto given = [&](std::string_view word) { return std::ranges::find(words, word) != words.end(); };
+    if (given("--version")) {
+        invocation.out << "rawtexel " << version() << '\n';
+        return kDone;
+    }
+    if (!words.empty() && words[0] == "help") return help_on({words.begin() + 1, words.end()}, invocation, commands);
+
     size_t which = 0;
     const std::optional<size_t> at = find_command_word(words, commands, which);
     if (!at) {
-        const auto given = [&](std::string_view word) { return std::ranges::find(words, word) != words.end(); };
-        if (given("--version"))
-            invocation.out << "rawtexel " << version() << '\n';
-        else if (given("--help") || given("-h"))
-            invocation.out << program_help(commands);
-        else
-            throw_no_command(words, commands);
-        return kDone;
+        if (!given("--help") && !given("-h")) throw_no_command(words, commands);
+        return help_on({}, invocation, commands);
     }
     Words rest = words;
     rest.erase(rest.begin() + std::ptrdiff_t(*at));

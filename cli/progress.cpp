@@ -26,14 +26,35 @@ std::string_view to_string(ProgressMode mode) {
     return "";
 }
 
-ProgressReport::ProgressReport(std::ostream& out, ProgressMode mode, bool terminal, double samples, Clock clock)
-    : out_(out), mode_(mode), terminal_(terminal), samples_(samples), clock_(std::move(clock)), start_(clock_()) {
+ProgressReport::ProgressReport(std::ostream& out, ProgressMode mode, bool terminal, Clock clock)
+    : out_(out), mode_(mode), terminal_(terminal), clock_(std::move(clock)), start_(clock_()) {
+    phase_start_ = start_;
     last_drawn_ = start_ - kLineSeconds;
 }
 
 ProgressReport::~ProgressReport() {
     // A run that failed still leaves a clean line for the error.
-    if (bar_shown_) out_ << kEraseLine << std::flush;
+    erase_line();
+}
+
+bool ProgressReport::is_quiet(double now) const {
+    return mode_ == ProgressMode::Never || (mode_ == ProgressMode::Auto && now - start_ < kQuietSeconds);
+}
+
+void ProgressReport::begin(std::string_view phase, double samples) {
+    const std::lock_guard lock(mutex_);
+    phase_ = phase;
+    samples_ = samples;
+    phase_start_ = clock_();
+    share_ = 0.0;
+    last_tenth_ = 0;
+    if (is_quiet(phase_start_)) return;
+    if (terminal_) {
+        last_drawn_ = -kRedrawSeconds;
+        draw_bar(phase_start_);
+    } else if (mode_ == ProgressMode::Always) {
+        out_ << "rawtexel: " << phase_ << '\n' << std::flush;
+    }
 }
 
 void ProgressReport::update(double share) {
@@ -42,47 +63,60 @@ void ProgressReport::update(double share) {
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock || finished_ || share < share_) return;
     share_ = std::min(share, 1.0);
-    const double elapsed = clock_() - start_;
-    if (mode_ == ProgressMode::Auto && elapsed < kQuietSeconds) return;
+    const double now = clock_();
+    if (is_quiet(now)) return;
     if (terminal_)
-        draw_bar(share_, elapsed);
+        draw_bar(now);
     else
-        print_line(share_, elapsed);
+        print_line(share_, now);
 }
 
 void ProgressReport::finish() {
     const std::lock_guard lock(mutex_);
     if (finished_) return;
     finished_ = true;
-    if (bar_shown_) out_ << kEraseLine << std::flush;
-    bar_shown_ = false;
-    const bool announce = mode_ == ProgressMode::Always || lines_shown_;
-    if (announce && last_tenth_ < 10) print_line(1.0, clock_() - start_);
+    erase_line();
+    if (!is_quiet(clock_()) && (!terminal_ || mode_ == ProgressMode::Always)) print_line(1.0, clock_());
 }
 
-void ProgressReport::draw_bar(double share, double elapsed) {
-    const double now = start_ + elapsed;
+void ProgressReport::clear() {
+    const std::lock_guard lock(mutex_);
+    erase_line();
+}
+
+void ProgressReport::draw_bar(double now) {
     if (now - last_drawn_ < kRedrawSeconds) return;
     last_drawn_ = now;
-    const int filled = int(share * kBarWidth);
-    out_ << kEraseLine << '[' << std::string(size_t(filled), '#') << std::string(size_t(kBarWidth - filled), '.') << "] "
-         << int(share * 100.0) << " %";
-    if (elapsed > 0.0 && share > 0.0)
-        out_ << "  " << print_quantity(samples_ * share / elapsed) << "samples/s  " << print_duration(elapsed * (1.0 - share) / share)
+    bar_shown_ = true;
+    out_ << kEraseLine;
+    if (samples_ == 0.0) {
+        out_ << phase_ << std::flush;
+        return;
+    }
+    const int filled = int(share_ * kBarWidth);
+    out_ << '[' << std::string(size_t(filled), '#') << std::string(size_t(kBarWidth - filled), '.') << "] " << int(share_ * 100.0) << " %";
+    const double elapsed = now - phase_start_;
+    if (elapsed > 0.0 && share_ > 0.0)
+        out_ << "  " << print_quantity(samples_ * share_ / elapsed) << "samples/s  " << print_duration(elapsed * (1.0 - share_) / share_)
              << " left";
     out_ << std::flush;
-    bar_shown_ = true;
 }
 
-void ProgressReport::print_line(double share, double elapsed) {
+void ProgressReport::print_line(double share, double now) {
     const int tenth = int(share * 10.0 + 1e-9);
-    const double now = start_ + elapsed;
     const bool too_soon = mode_ == ProgressMode::Auto && share < 1.0 && now - last_drawn_ < kLineSeconds;
-    if (tenth <= last_tenth_ || too_soon) return;
+    // "100 %" alone says nothing.
+    const bool alone = mode_ == ProgressMode::Auto && tenth == 10 && !lines_shown_;
+    if (tenth <= last_tenth_ || too_soon || alone) return;
     last_tenth_ = tenth;
     last_drawn_ = now;
     lines_shown_ = true;
-    out_ << "rawtexel: " << tenth * 10 << " % after " << print_duration(elapsed) << '\n' << std::flush;
+    out_ << "rawtexel: " << tenth * 10 << " % after " << print_duration(now - phase_start_) << '\n' << std::flush;
+}
+
+void ProgressReport::erase_line() {
+    if (bar_shown_) out_ << kEraseLine << std::flush;
+    bar_shown_ = false;
 }
 
 double ProgressReport::steady_seconds() {

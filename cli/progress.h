@@ -14,36 +14,42 @@ namespace rawtexel::cli {
 enum class ProgressMode { Auto, Always, Never };
 std::string_view to_string(ProgressMode mode);  // auto always never
 
-/// A bar with rate and time left, redrawn in place, where `terminal`; elsewhere a plain line every ten percent
-/// (Auto: and at most one a second).
-/// The bar is gone from the screen when the report ends, by finish() or with the object.
+/// What a run is doing and how far it has come. Where `terminal`: one line redrawn in place, a bar with rate and time left for phases that
+/// compute samples; it is gone from the screen when the report ends, by finish() or with the object. Elsewhere plain lines: the name of
+/// each phase, and then one every ten percent (Auto: at most one a second, and the last only after another).
 class ProgressReport {
   public:
     using Clock = std::function<double()>;  ///< seconds, never going back
 
-    /// `samples`: what the whole run computes, for the rate.
-    ProgressReport(std::ostream& out, ProgressMode mode, bool terminal, double samples, Clock clock = steady_seconds);
+    ProgressReport(std::ostream& out, ProgressMode mode, bool terminal, Clock clock = steady_seconds);
     ~ProgressReport();
     ProgressReport(const ProgressReport&) = delete;
     ProgressReport& operator=(const ProgressReport&) = delete;
 
-    /// From any thread; `share` 0..1. A share below one seen before changes nothing.
+    /// Begins the next phase, such as "loading". `samples`: what it computes, for the rate; 0 where it computes none.
+    void begin(std::string_view phase, double samples = 0.0);
+    /// From any thread; `share` 0..1 of the phase. A share below one seen before changes nothing.
     void update(double share);
     void finish();
+    /// Makes room for other words on a terminal; the next update draws the bar anew.
+    void clear();
 
     static double steady_seconds();
 
   private:
-    void draw_bar(double share, double elapsed);
-    void print_line(double share, double elapsed);
+    bool is_quiet(double now) const;
+    void draw_bar(double now);
+    void print_line(double share, double now);
+    void erase_line();
 
     std::ostream& out_;
     const ProgressMode mode_;
     const bool terminal_;
-    const double samples_;
     const Clock clock_;
     const double start_;
     std::mutex mutex_;  // guards what follows and the stream
+    std::string phase_;
+    double samples_ = 0.0, phase_start_ = 0.0;
     double share_ = 0.0;
     double last_drawn_ = 0.0;  // seconds
     int last_tenth_ = 0;

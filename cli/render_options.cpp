@@ -1,11 +1,14 @@
 #include "cli/render_options.h"
 
+#include "cli/limits.h"
 #include "cli/option_values.h"
 #include "cli/texture_options.h"
+#include "cli/word_list.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <filesystem>
 #include <sstream>
 
 namespace rawtexel::cli {
@@ -15,9 +18,8 @@ using shading::Aov;
 using texunit::Kernel;
 using texunit::MipMode;
 
-constexpr int kMaxImageExtent = 16384;  // pixels
-constexpr int kMaxSamples = 1 << 20;
-constexpr int kMaxThreads = 1024;
+constexpr NumberRange kFov{kMinFov, kMaxFov}, kAngle{-kMaxAngle, kMaxAngle}, kZoom{kMinZoom, kMaxZoom}, kAmbient{0.0f, kMaxAmbient},
+    kRadiance{0.0f, kMaxRadiance}, kLux{0.0f, kMaxLux}, kExposure{-kMaxExposure, kMaxExposure}, kLength{-kMaxLength, kMaxLength};
 
 template <class T>
 std::string print_or_scene(const std::optional<T>& value) {
@@ -36,9 +38,16 @@ std::optional<T> parse_or_scene(std::string_view option, std::string_view text, 
     throw unknown_value(option, text, names);
 }
 
+// A number of a value that holds several, in its own range.
+float part_in(const NumberRange& range, const char* option, std::string_view text, const char* part, float value) {
+    if (value >= range.lowest && value <= range.highest) return value;
+    throw UsageError(std::string(option) + ": '" + std::string(text) + "' has " + part + " " + print_number(value) +
+                     " (allowed: " + print(range) + ")");
+}
+
 void declare_image_options(CommandLine& line, RenderRequest& request) {
     line.group("Image");
-    line.option("--size", "WxH", "extents in pixels, 1 to 16384 (default 1280x720)",
+    line.option("--size", "WxH", "extents in pixels, 1 to " + std::to_string(kMaxImageExtent) + " (default 1280x720)",
                 [&](const std::string& text) { request.size = parse_size(text); });
     line.option("--crop", "X,Y,W,H", "only this part of the image; its pixels are those of the whole",
                 [&](const std::string& text) { request.crop = parse_crop(text); });
@@ -47,29 +56,34 @@ void declare_image_options(CommandLine& line, RenderRequest& request) {
 void declare_view_options(CommandLine& line, ViewOptions& view) {
     line.group("Camera (default: the scene's first, else 45 degrees along (-1, -0.6, -1), the whole scene in view)");
     line.option("--camera", "NAME|INDEX", "one of the scene's cameras", [&](const std::string& text) { view.camera = text; });
-    line.option("--orbit", "YAW,PITCH[,ZOOM]", "on a sphere about the scene's centre, in degrees; at ZOOM 1 the scene just fits",
-                [&](const std::string& text) { view.orbit = parse_orbit(text); });
-    line.option("--eye", "X,Y,Z", "where the camera is", [&](const std::string& text) { view.eye = parse_vector("--eye", text); });
+    line.option(
+        "--orbit", "YAW,PITCH[,ZOOM]",
+        "on a sphere about the scene's centre: degrees, " + print(kAngle) + "; at ZOOM 1 the scene just fits (" + print(kZoom) + ")",
+        [&](const std::string& text) { view.orbit = parse_orbit(text); });
+    line.option("--eye", "X,Y,Z", "where the camera is: metres, " + print(kLength),
+                [&](const std::string& text) { view.eye = parse_vector("--eye", text); });
     line.option("--target", "X,Y,Z", "what it looks at (default: the scene's centre)",
                 [&](const std::string& text) { view.target = parse_vector("--target", text); });
-    line.option("--fov", "DEGREES", "vertical field of view, 0.01 to 179",
-                [&](const std::string& text) { view.fov = parse_number("--fov", text, 0.01f, 179.0f); });
+    line.option("--fov", "DEGREES", "vertical field of view, " + print(kFov),
+                [&](const std::string& text) { view.fov = parse_number("--fov", text, kFov); });
 }
 
 void declare_light_options(CommandLine& line, LightOptions& light) {
     line.group("Light");
-    line.option("--light", "X,Y,Z[,I]",
-                "one directional light instead of the scene's: the way it travels, and its intensity in lux (default 3)",
-                [&](const std::string& text) { light.light = parse_light(text); });
-    line.option("--ambient", "A", "adds A x base colour x occlusion (default 0)",
-                [&](const std::string& text) { light.ambient = parse_number("--ambient", text, 0.0f); });
+    line.option(
+        "--light", "X,Y,Z[,I]",
+        "one directional light instead of the scene's: the way it travels, and its intensity in lux, " + print(kLux) + " (default 3)",
+        [&](const std::string& text) { light.light = parse_light(text); });
+    line.option("--ambient", "A", "adds A x base colour x occlusion, " + print(kAmbient) + " (default 0)",
+                [&](const std::string& text) { light.ambient = parse_number("--ambient", text, kAmbient); });
     line.option("--shadows", "on|off", "of the first directional light (default on)", [&](const std::string& text) {
         light.shadows = parse_word("--shadows", text, {"on", "off"}) == 0;
     });
     line.option("--environment", "sky|none|FILE",
                 "light from all around; FILE is a lat-long image (default: sky where the scene has no lights, else none)",
                 [&](const std::string& text) { light.environment = parse_environment(text); });
-    line.option("--background", "environment|R,G,B", "what shows where nothing is, in linear radiance (default environment)",
+    line.option("--background", "environment|R,G,B",
+                "what shows where nothing is, in linear radiance, " + print(kRadiance) + " (default environment)",
                 [&](const std::string& text) { light.background = parse_background(text); });
     line.flag("--peer-shading",
               "light as simple viewers draw it: the scene's directional light or --light -0.4,-1,-0.3,3, and --ambient 0.1 "
@@ -90,7 +104,7 @@ void declare_lookup_options(CommandLine& line, LookupOptions& lookup) {
 
 void declare_sample_options(CommandLine& line, SampleOptions& samples) {
     line.group("Sampling");
-    line.option("--spp", "N", "samples per pixel (default 1); sample n is the same whatever N",
+    line.option("--spp", "N", "samples per pixel, 1 to " + std::to_string(kMaxSamples) + " (default 1); sample n is the same whatever N",
                 [&](const std::string& text) { samples.spp = int(parse_integer("--spp", text, 1, kMaxSamples)); });
     line.option(
         "--pixel-filter", "box|tent|gaussian", "weight of a sample by its distance from the pixel's centre (default box)",
@@ -104,18 +118,19 @@ void declare_sample_options(CommandLine& line, SampleOptions& samples) {
                     using shading::PixelJitter;
                     samples.pixel_jitter = parse_choice("--pixel-jitter", text, {PixelJitter::Frame, PixelJitter::Pixel});
                 });
-    line.option("--seed", "S", "of all random numbers (default 0)",
+    line.option("--seed", "S", "of all random numbers, 0 to " + std::to_string(UINT32_MAX) + " (default 0)",
                 [&](const std::string& text) { samples.seed = uint32_t(parse_integer("--seed", text, 0, UINT32_MAX)); });
 }
 
 void declare_tone_options(CommandLine& line, ToneOptions& tone) {
     line.group("Display (formats of 8 bits; float formats hold linear radiance)");
-    line.option("--exposure", "EV", "radiance times 2^EV, -64 to 64 (default 0)",
-                [&](const std::string& text) { tone.exposure = parse_number("--exposure", text, -64.0f, 64.0f); });
-    line.option("--tonemap", "aces|reinhard|none", "(default aces)", [&](const std::string& text) {
-        using shading::ToneMap;
-        tone.tone_map = parse_choice("--tonemap", text, {ToneMap::Aces, ToneMap::Reinhard, ToneMap::None});
-    });
+    line.option("--exposure", "EV", "radiance times 2^EV, " + print(kExposure) + " (default 0)",
+                [&](const std::string& text) { tone.exposure = parse_number("--exposure", text, kExposure); });
+    line.option("--tonemap", "aces|reinhard|none", "how radiance of any size is fitted into what a screen shows (default aces); none clips",
+                [&](const std::string& text) {
+                    using shading::ToneMap;
+                    tone.tone_map = parse_choice("--tonemap", text, {ToneMap::Aces, ToneMap::Reinhard, ToneMap::None});
+                });
     line.option("--transfer", "srgb|sqrt|linear", "how light becomes codes (default srgb)", [&](const std::string& text) {
         using shading::Transfer;
         tone.transfer = parse_choice("--transfer", text, {Transfer::Srgb, Transfer::Sqrt, Transfer::Linear});
@@ -124,7 +139,7 @@ void declare_tone_options(CommandLine& line, ToneOptions& tone) {
 
 void declare_machine_options(CommandLine& line, MachineOptions& machine) {
     line.group("Machine (the image is the same whatever these say)");
-    line.option("--threads", "N", "(default: all cores)",
+    line.option("--threads", "N", "1 to " + std::to_string(kMaxThreads) + " (default: as many as there are cores)",
                 [&](const std::string& text) { machine.threads = int(parse_integer("--threads", text, 1, kMaxThreads)); });
     line.option("--tile-size", "N", "32, 64 or 128 pixels (default 64)", [&](const std::string& text) {
         constexpr std::array kTileSizes{32, 64, 128};
@@ -187,8 +202,10 @@ std::string print(const shading::Crop& crop) {
 
 Orbit parse_orbit(std::string_view text) {
     const std::vector<float> values = parse_numbers("--orbit", text, "YAW,PITCH[,ZOOM]", 2, 3);
-    const Orbit orbit{values[0], values[1], values.size() == 3 ? values[2] : 1.0f};
-    if (orbit.zoom <= 0.0f) throw UsageError("--orbit: '" + std::string(text) + "' has a ZOOM of 0 or less");
+    Orbit orbit;
+    orbit.yaw = part_in(kAngle, "--orbit", text, "YAW", values[0]);
+    orbit.pitch = part_in(kAngle, "--orbit", text, "PITCH", values[1]);
+    if (values.size() == 3) orbit.zoom = part_in(kZoom, "--orbit", text, "ZOOM", values[2]);
     return orbit;
 }
 
@@ -198,9 +215,8 @@ SunOption parse_light(std::string_view text) {
     const std::vector<float> values = parse_numbers("--light", text, "X,Y,Z[,I]", 3, 4);
     SunOption light;
     light.direction = {values[0], values[1], values[2]};
-    if (values.size() == 4) light.intensity = values[3];
+    if (values.size() == 4) light.intensity = part_in(kLux, "--light", text, "I", values[3]);
     if (light.direction == glm::vec3(0.0f)) throw UsageError("--light: '" + std::string(text) + "' has no direction");
-    if (light.intensity < 0.0f) throw UsageError("--light: '" + std::string(text) + "' has a negative intensity");
     return light;
 }
 
@@ -209,6 +225,10 @@ std::string print(const SunOption& light) { return print_vector(light.direction)
 EnvironmentOption parse_environment(std::string_view text) {
     if (text == "sky") return {EnvironmentKind::Sky, {}};
     if (text == "none") return {EnvironmentKind::None, {}};
+    // What looks like no file and is none was meant to be a word.
+    if (text.find_first_of("/.") == text.npos && !std::filesystem::exists(text))
+        throw UsageError(unknown_value("--environment", text, std::vector<std::string>{"sky", "none"}).what() +
+                         std::string(", or the path of an image"));
     return {EnvironmentKind::File, std::string(text)};
 }
 
@@ -220,7 +240,7 @@ std::string print(const EnvironmentOption& environment) {
 std::optional<glm::vec3> parse_background(std::string_view text) {
     if (text == "environment") return std::nullopt;
     if (!text.empty() && std::isalpha(static_cast<unsigned char>(text[0]))) parse_word("--background", text, {"environment"});
-    return parse_vector("--background", text, "environment or R,G,B");
+    return parse_vector("--background", text, "environment or R,G,B", kRadiance);
 }
 
 std::optional<Kernel> parse_filter(std::string_view text) { return parse_or_scene("--filter", text, {Kernel::Nearest, Kernel::Bilinear}); }

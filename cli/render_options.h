@@ -21,13 +21,13 @@
 namespace rawtexel::cli {
 
 struct ImageSize {
-    int width = 1280, height = 720;  ///< pixels, 1..16384
+    int width = 1280, height = 720;  ///< pixels, 1..kMaxImageExtent
     bool operator==(const ImageSize&) const = default;
 };
 
 struct Orbit {
-    float yaw = 0.0f, pitch = 0.0f;  ///< degrees
-    float zoom = 1.0f;               ///< above 0; 1: the scene just fits
+    float yaw = 0.0f, pitch = 0.0f;  ///< degrees, within kMaxAngle
+    float zoom = 1.0f;               ///< kMinZoom to kMaxZoom; 1: the scene just fits
     bool operator==(const Orbit&) const = default;
 };
 
@@ -81,6 +81,8 @@ struct ToneOptions {
     std::optional<float> exposure;              ///< EV; unset: 0
     std::optional<shading::ToneMap> tone_map;   ///< unset: ACES
     std::optional<shading::Transfer> transfer;  ///< unset: sRGB
+    /// White is what shows where nothing is, laid under the image after the tone map, which would dim it.
+    bool white_backdrop = false;
 };
 
 struct MachineOptions {
@@ -103,6 +105,7 @@ struct RenderRequest {
     ImageSize image_size() const { return size.value_or(ImageSize{}); }
 };
 
+// The readers throw UsageError where the text is not of the form shown or leaves its range (cli/limits.h).
 ImageSize parse_size(std::string_view text);  // 1280x720
 std::string print(const ImageSize& size);
 shading::Crop parse_crop(std::string_view text);  // X,Y,W,H

@@ -1,5 +1,6 @@
 #include "cli/scenario.h"
 
+#include "cli/limits.h"
 #include "cli/option_values.h"
 
 #include <nlohmann/json.hpp>
@@ -11,10 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Radiance that the ACES fit shows as white; enough for the others too.
-constexpr float kWhiteBackground = 32.0f;
-
-constexpr double kMaxLength = 1e15;  // metres: squares are finite
+constexpr float kMinRadius = 1e-6f;  // metres: the eye is not the target
 
 UsageError scenario_error(const std::string& key, const std::string& what) { return UsageError("--scenario: \"" + key + "\" " + what); }
 
@@ -36,16 +34,16 @@ std::string string_member(const Json& parent, const std::string& key) {
     return value.get<std::string>();
 }
 
-float number_member(const Json& parent, const std::string& key, double lowest, double highest) {
+float number_member(const Json& parent, const std::string& key, const NumberRange& range) {
     const Json& value = member(parent, key);
     const double number = value.is_number() ? value.get<double>() : std::nan("");
-    if (!(number >= lowest && number <= highest))
-        throw scenario_error(key, "is not a number from " + print_number(float(lowest)) + " to " + print_number(float(highest)));
+    if (!(number >= double(range.lowest) && number <= double(range.highest)))
+        throw scenario_error(key, "is not a number from " + print(range));
     return float(number);
 }
 
 int extent_member(const Json& parent, const std::string& key) {
-    const float extent = number_member(parent, key, 1.0, 16384.0);
+    const float extent = number_member(parent, key, {1.0f, float(kMaxImageExtent)});
     if (extent != std::floor(extent)) throw scenario_error(key, "is not a whole number");
     return int(extent);
 }
@@ -77,13 +75,13 @@ Scenario parse_scenario(std::string_view text) {
     const Json& dimensions = object_member(source, "dimensions");
     scenario.size = {extent_member(dimensions, "width"), extent_member(dimensions, "height")};
     const Json& target = object_member(source, "target");
-    const auto coordinate = [&](const char* axis) { return number_member(target, axis, -kMaxLength, kMaxLength); };
+    const auto coordinate = [&](const char* axis) { return number_member(target, axis, {-kMaxLength, kMaxLength}); };
     scenario.target = {coordinate("x"), coordinate("y"), coordinate("z")};
     const Json& orbit = object_member(source, "orbit");
-    scenario.theta = number_member(orbit, "theta", -36000.0, 36000.0);
-    scenario.phi = number_member(orbit, "phi", -36000.0, 36000.0);
-    scenario.radius = number_member(orbit, "radius", 1e-20, kMaxLength);
-    scenario.vertical_fov = number_member(source, "verticalFoV", 0.01, 179.0);
+    scenario.theta = number_member(orbit, "theta", {-kMaxAngle, kMaxAngle});
+    scenario.phi = number_member(orbit, "phi", {-kMaxAngle, kMaxAngle});
+    scenario.radius = number_member(orbit, "radius", {kMinRadius, kMaxLength});
+    scenario.vertical_fov = number_member(source, "verticalFoV", {kMinFov, kMaxFov});
     if (source.contains("renderSkybox")) {
         if (!source["renderSkybox"].is_boolean()) throw scenario_error("renderSkybox", "is not true or false");
         scenario.render_skybox = source["renderSkybox"].get<bool>();
@@ -102,7 +100,7 @@ void apply(const Scenario& scenario, RenderRequest& request) {
     if (!own_view && !view.fov) view.fov = scenario.vertical_fov;
     LightOptions& light = request.light;
     if (!light.environment && !scenario.lighting.empty()) light.environment = EnvironmentOption{EnvironmentKind::File, scenario.lighting};
-    if (!light.background && !scenario.render_skybox) light.background = glm::vec3(kWhiteBackground);
+    if (!light.background && !scenario.render_skybox) request.tone.white_backdrop = true;
 }
 
 }  // namespace rawtexel::cli

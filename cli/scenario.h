@@ -26,7 +26,7 @@ struct Scenario {
 /// "verticalFoV", "renderSkybox", "name", "model"}, "outputFile"}. Unknown keys are passed over. Throws UsageError naming the key.
 Scenario parse_scenario(std::string_view json);
 
-/// Fills in what the command line left open. Without a skybox the background is white, as those tools compare it.
+/// Fills in what the command line left open. Without a skybox white shows where nothing is, as those tools compare it.
 void apply(const Scenario& scenario, RenderRequest& request);
 
 }  // namespace rawtexel::cli

@@ -1,7 +1,6 @@
 #include "cli/view.h"
 
 #include "cli/option_values.h"
-#include "cli/spelling.h"
 
 #include <algorithm>
 #include <charconv>

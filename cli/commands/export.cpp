@@ -1,6 +1,6 @@
 #include "cli/commands/export.h"
 
-#include "cli/output_check.h"
+#include "cli/output_files.h"
 #include "scenes/export.h"
 #include "scenes/load.h"
 
@@ -21,10 +21,15 @@ class ExportCommand : public Command {
     int run(const Invocation& invocation) override {
         if (output_.empty()) throw UsageError("-o FILE.glb is missing (usage: rawtexel " + std::string(usage()) + ")");
         if (!output_.ends_with(".glb")) throw UsageError("-o: '" + output_ + "' is not a .glb file, the only format of export");
-        check_output(output_);
+        const std::vector<OutputFile> outputs{{"-o", output_}};
+        check_outputs(outputs, words_);
+        std::vector<std::string> opened;
         scenes::LoadOptions options;
         options.warn = [&](const std::string& what) { warn(invocation, what); };
-        scenes::export_glb(scenes::load(words_[0], options), output_);
+        options.opened = [&](const std::string& path) { opened.push_back(path); };
+        const shading::Scene scene = scenes::load(words_[0], options);
+        check_apart(outputs, opened);
+        scenes::export_glb(scene, output_);
         invocation.out << "Saved: " << output_ << '\n';
         return kDone;
     }

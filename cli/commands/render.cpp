@@ -2,15 +2,17 @@
 
 #include "cli/illumination.h"
 #include "cli/image_output.h"
+#include "cli/limits.h"
 #include "cli/metadata.h"
 #include "cli/option_values.h"
-#include "cli/output_check.h"
+#include "cli/output_files.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
 #include "cli/run_record.h"
 #include "cli/scenario.h"
 #include "cli/stats.h"
 #include "cli/view.h"
+#include "cli/word_list.h"
 #include "scenes/load.h"
 #include "scenes/output_file.h"
 #include "shading/render.h"
@@ -20,8 +22,6 @@
 
 namespace rawtexel::cli {
 namespace {
-
-constexpr int kMaxRepeats = 100000;
 
 void choose_instruction_set(texunit::Simd simd) {
     if (texunit::choose_simd(simd)) return;
@@ -43,11 +43,17 @@ shading::RenderOptions frame_options(const RenderRequest& request, const shading
     options.seed = request.samples.seed;
     options.filter = request.lookup.filter;
     options.mip = request.lookup.mip;
-    options.background = request.light.background;
+    options.background = request.tone.white_backdrop ? glm::vec3(0.0f) : request.light.background;
+    options.coverage = request.tone.white_backdrop;
     options.aovs = std::move(aovs);
     options.count = count;
     options.tile_size = request.machine.tile_size;
     return options;
+}
+
+scenes::Placement placement(const RenderRequest& request) {
+    const ImageSize size = request.image_size();
+    return {request.crop.x, request.crop.y, size.width, size.height};
 }
 
 double sample_count(const shading::RenderOptions& options) {
@@ -85,7 +91,9 @@ class RenderCommand : public Command {
                     [this](const std::string& text) { aovs_ = parse_aovs(text); });
         line.flag("--count", "count lookups, taps and texels", count_);
         line.option("--stats", "FILE", "the run's numbers as JSON", [this](const std::string& text) { stats_ = text; });
-        line.option("--repeat", "N", "render the frame N times for its timing; image and counters are the first's (default 1)",
+        line.option("--repeat", "N",
+                    "render the frame N times for its timing, 1 to " + std::to_string(kMaxRepeats) +
+                        "; image and counters are the first's (default 1)",
                     [this](const std::string& text) { repeats_ = int(parse_integer("--repeat", text, 1, kMaxRepeats)); });
     }
 
@@ -93,9 +101,12 @@ class RenderCommand : public Command {
 
   private:
     void settle_words();
-    void check_outputs(const Invocation& invocation) const;
+    std::vector<OutputFile> output_files() const;
+    std::vector<std::string> input_files() const;
+    void check_before_long_work(const Invocation& invocation) const;
+    shading::Scene load_scene(const Invocation& invocation, ProgressReport& progress) const;
     shading::RenderResult render_frames(const shading::Scene& scene, const shading::Lighting& lighting,
-                                        const shading::RenderOptions& options, shading::Executor& executor, const Invocation& invocation,
+                                        const shading::RenderOptions& options, shading::Executor& executor, ProgressReport& progress,
                                         RunRecord& record) const;
     void write_stats(const RunRecord& record, const shading::Scene& scene) const;
 
@@ -123,8 +134,20 @@ void RenderCommand::settle_words() {
     settle(request_);
 }
 
-// Before a long render: the format is known, the places can be written.
-void RenderCommand::check_outputs(const Invocation& invocation) const {
+std::vector<OutputFile> RenderCommand::output_files() const {
+    std::vector<OutputFile> files{{"-o", output_}};
+    if (!stats_.empty()) files.push_back({"--stats", stats_});
+    return files;
+}
+
+std::vector<std::string> RenderCommand::input_files() const {
+    const auto& environment = request_.light.environment;
+    if (environment && environment->kind == EnvironmentKind::File) return {scene_, environment->file};
+    return {scene_};
+}
+
+// The format is known, the places can be written.
+void RenderCommand::check_before_long_work(const Invocation& invocation) const {
     check_image_format("-o", output_);
     if (!aovs_.empty() && !stores_layers(output_))
         throw UsageError("--aov: '" + output_ + "' cannot hold layers, the format that can is '.exr'");
@@ -132,15 +155,29 @@ void RenderCommand::check_outputs(const Invocation& invocation) const {
     const bool tone_asked = tone.exposure || tone.transfer || (tone.tone_map && !request_.light.peer_shading);
     if (tone_asked && scenes::is_float_format(output_))
         warn(invocation, output_ + ": --exposure, --tonemap and --transfer change nothing here, the format holds linear radiance");
-    check_output(output_);
-    if (!stats_.empty()) check_output(stats_);
+    check_outputs(output_files(), input_files());
+}
+
+shading::Scene RenderCommand::load_scene(const Invocation& invocation, ProgressReport& progress) const {
+    std::vector<std::string> opened;
+    scenes::LoadOptions options;
+    options.texture.mip_storage = request_.lookup.mip_storage;
+    options.files = request_.lookup.files;
+    options.warn = [&](const std::string& what) {
+        progress.clear();
+        warn(invocation, what);
+    };
+    options.opened = [&](const std::string& path) { opened.push_back(path); };
+    shading::Scene scene = scenes::load(scene_, options);
+    check_apart(output_files(), opened);
+    return scene;
 }
 
 // The first frame counts; the others are for the clock alone.
 shading::RenderResult RenderCommand::render_frames(const shading::Scene& scene, const shading::Lighting& lighting,
                                                    const shading::RenderOptions& options, shading::Executor& executor,
-                                                   const Invocation& invocation, RunRecord& record) const {
-    ProgressReport progress(invocation.err, request_.machine.progress, invocation.err_is_terminal, sample_count(options) * repeats_);
+                                                   ProgressReport& progress, RunRecord& record) const {
+    progress.begin("rendering", sample_count(options) * repeats_);
     shading::RenderResult first;
     for (int repeat = 0; repeat < repeats_; ++repeat) {
         shading::RenderResult result =
@@ -162,17 +199,16 @@ void RenderCommand::write_stats(const RunRecord& record, const shading::Scene& s
 int RenderCommand::run(const Invocation& invocation) {
     const double start = ProgressReport::steady_seconds();
     settle_words();
-    check_outputs(invocation);
+    check_before_long_work(invocation);
     choose_instruction_set(request_.machine.simd);
     const auto executor = shading::make_executor(shading::default_executor_kind(), request_.machine.threads);
 
-    scenes::LoadOptions load_options;
-    load_options.texture.mip_storage = request_.lookup.mip_storage;
-    load_options.files = request_.lookup.files;
-    load_options.warn = [&](const std::string& what) { warn(invocation, what); };
-    const shading::Scene scene = scenes::load(scene_, load_options);
+    ProgressReport progress(invocation.err, request_.machine.progress, invocation.err_is_terminal);
+    progress.begin("loading");
+    const shading::Scene scene = load_scene(invocation, progress);
     const ImageSize size = request_.image_size();
     const View view = choose_view(scene, request_.view, float(size.width) / float(size.height));
+    progress.begin("preparing light");
     const shading::Lighting lighting = make_lighting(scene, request_.light, *executor);
 
     RunRecord record;
@@ -182,10 +218,11 @@ int RenderCommand::run(const Invocation& invocation) {
     record.request = request_;
     record.times.load_s = ProgressReport::steady_seconds() - start;
     const shading::RenderOptions options = frame_options(request_, view.camera, aovs_, count_);
-    record.result = render_frames(scene, lighting, options, *executor, invocation, record);
+    record.result = render_frames(scene, lighting, options, *executor, progress, record);
 
     const double write_start = ProgressReport::steady_seconds();
-    write_image(output_, record.result.radiance, record.result.layers, request_.tone, image_metadata(record));
+    const scenes::Metadata metadata = image_metadata(record, !scenes::is_float_format(output_));
+    write_image(output_, record.result, request_.tone, placement(request_), metadata);
     const double end = ProgressReport::steady_seconds();
     record.times.write_s = end - write_start;
     record.times.total_s = end - start;

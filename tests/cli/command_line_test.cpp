@@ -57,6 +57,23 @@ TEST(CommandLine, ValuesMayFollowAnEqualsSign) {
     EXPECT_EQ(sample.output, "b");
 }
 
+TEST(CommandLine, ShortOptionsTakeAnEqualsSignToo) {
+    for (const std::string& value : {std::string("b.png"), std::string("=b"), std::string("a=b")}) {
+        Sample sample;
+        ASSERT_TRUE(sample.line.parse({"a", "-o=" + value}));
+        EXPECT_EQ(sample.output, value);
+        EXPECT_EQ(sample.words, std::vector<std::string>{"a"});
+    }
+    Sample value, word;
+    ASSERT_TRUE(value.line.parse({"--size", "-o=1", "a"}));  // a value may look like anything
+    EXPECT_EQ(value.size, "-o=1");
+    ASSERT_TRUE(word.line.parse({"--", "-o=1"}));
+    EXPECT_EQ(word.words, std::vector<std::string>{"-o=1"});
+    EXPECT_EQ(Sample().error({"a", "-o="}), "--output: a value is missing (FILE)");
+}
+
+TEST(CommandLine, EmptyWordsAreNamed) { EXPECT_TRUE(Sample().error({""}).starts_with("an argument is empty")) << Sample().error({""}); }
+
 TEST(CommandLine, ValuesMayBeNegativeOrLookLikeWords) {
     for (const std::string value : {"-1,2,3", "-.5,0,0", "-0.4,-1,-0.3,3", "{\"a\": [1]}", "[x]", "a b", "-"}) {
         Sample sample;

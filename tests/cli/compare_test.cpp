@@ -154,7 +154,7 @@ TEST(Compare, InputThatDoesNotServeIsExitCode3) {
         EXPECT_EQ(why_not_failed(run({"compare", folder / bad, folder / "a.png"}), kBadInput, bad), "");
         EXPECT_EQ(why_not_failed(run({"compare", folder / "a.png", folder / bad}), kBadInput, bad), "");
     }
-    EXPECT_EQ(why_not_failed(run({"compare", folder.str(), folder / "a.png"}), kBadInput, folder.str()), "");
+    EXPECT_EQ(why_not_failed(run({"compare", folder.path(), folder / "a.png"}), kBadInput, folder.path()), "");
 }
 
 TEST(Compare, OutputThatCannotBeWrittenIsExitCode4) {
@@ -162,8 +162,9 @@ TEST(Compare, OutputThatCannotBeWrittenIsExitCode4) {
     write_flat_png(folder / "a.png", 0);
     for (const std::string place : {"missing/d.png", "a.png/d.png"})
         EXPECT_EQ(why_not_failed(run({"compare", folder / "a.png", folder / "a.png", "-o", folder / place}), kCannotWrite, place), "");
-    EXPECT_EQ(why_not_failed(run({"compare", folder / "a.png", folder / "a.png", "--csv", folder.str()}), kCannotWrite, folder.str()), "");
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"a.png"});
+    EXPECT_EQ(why_not_failed(run({"compare", folder / "a.png", folder / "a.png", "--csv", folder.path()}), kCannotWrite, folder.path()),
+              "");
+    EXPECT_EQ(folder.entries(), std::vector<std::string>{"a.png"});
 }
 
 TEST(Compare, LinearLightAgainstDisplayValuesIsWarnedOf) {
@@ -173,6 +174,23 @@ TEST(Compare, LinearLightAgainstDisplayValuesIsWarnedOf) {
     const test::Outcome outcome = run({"compare", folder / "a.exr", folder / "a.png"});
     EXPECT_EQ(outcome.code, kDone);
     EXPECT_TRUE(outcome.err.starts_with("rawtexel: warning: ")) << outcome.err;
+}
+
+TEST(Compare, NoImageIsOverwritten) {
+    const TemporaryFolder folder;
+    write_flat_png(folder / "a.png", 51);
+    write_flat_png(folder / "b.png", 102);
+    const std::string a = test::read_file(folder / "a.png");
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{"--csv", folder / "a.png"}, {"-o", folder / "a.png"}, {"-o", folder / "b.png"}})
+        EXPECT_EQ(why_not_failed(run({"compare", folder / "a.png", folder / "b.png", more[0], more[1]}), kWrongUsage,
+                                 "would replace a file that is read"),
+                  "");
+    EXPECT_EQ(why_not_failed(run({"compare", folder / "a.png", folder / "b.png", "-o", folder / "d.png", "--csv", folder / "d.png"}),
+                             kWrongUsage, "is the file that -o writes"),
+              "");
+    EXPECT_EQ(test::read_file(folder / "a.png"), a);
+    EXPECT_EQ(folder.entries(), (std::vector<std::string>{"a.png", "b.png"}));
 }
 
 }  // namespace

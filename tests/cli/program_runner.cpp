@@ -5,14 +5,12 @@
 #include "scenes/image_io.h"
 
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 
 namespace rawtexel::test {
 namespace {
@@ -68,24 +66,6 @@ Outcome run_built(const std::vector<std::string>& words) {
     outcome.out = read_file(folder / "out");
     outcome.err = read_file(folder / "err");
     return outcome;
-}
-
-TemporaryFolder::TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "rawtexel-test-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-    path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-}
-
-std::vector<std::string> TemporaryFolder::names() const {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(path_)) names.push_back(entry.path().filename().string());
-    std::ranges::sort(names);
-    return names;
 }
 
 std::string read_file(const std::string& path) {

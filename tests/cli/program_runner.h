@@ -1,7 +1,8 @@
 // Running the program in tests: in this process for speed, or the built one.
 #pragma once
 
-#include <filesystem>
+#include "tests/temporary_folder.h"
+
 #include <string>
 #include <vector>
 
@@ -16,21 +17,6 @@ struct Outcome {
 Outcome run(const std::vector<std::string>& words);
 /// The built program, as a shell starts it.
 Outcome run_built(const std::vector<std::string>& words);
-
-/// A folder of its own that goes with the object.
-class TemporaryFolder {
-  public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-    std::string str() const { return path_.string(); }
-    std::vector<std::string> names() const;  ///< of everything inside, sorted
-  private:
-    std::filesystem::path path_;
-};
 
 std::string read_file(const std::string& path);
 void write_file(const std::string& path, const std::string& bytes);

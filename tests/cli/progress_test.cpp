@@ -15,8 +15,9 @@ struct Report {
     std::ostringstream out;
     double now = 100.0;
     ProgressReport progress;
-    Report(ProgressMode mode, bool terminal) : progress(out, mode, terminal, 2e6, [this] { return now; }) {}
+    Report(ProgressMode mode, bool terminal) : progress(out, mode, terminal, [this] { return now; }) {}
     void run(int steps, double seconds) {
+        progress.begin("rendering", 2e6);
         for (int i = 1; i <= steps; ++i) {
             now += seconds / steps;
             progress.update(double(i) / steps);
@@ -59,6 +60,43 @@ TEST(Progress, AutoPrintsAtMostOneLineASecond) {
     EXPECT_LE(lines, 4) << report.out.str();
 }
 
+TEST(Progress, TheLastLineDoesNotStandAlone) {
+    Report late(ProgressMode::Auto, false);
+    late.run(1, 1.2);  // no share was known before the quiet second had passed
+    EXPECT_EQ(late.out.str(), "");
+    Report slow(ProgressMode::Auto, false);
+    slow.run(2, 2.4);
+    EXPECT_EQ(slow.out.str(), "rawtexel: 50 % after 0:01\nrawtexel: 100 % after 0:02\n");
+}
+
+TEST(Progress, AlwaysNamesEveryPhase) {
+    for (const bool terminal : {false, true}) {
+        Report report(ProgressMode::Always, terminal);
+        report.progress.begin("loading");
+        EXPECT_NE(report.out.str().find("loading"), std::string::npos);
+        report.now += 30.0;
+        report.run(10, 10.0);
+        const std::string text = report.out.str();
+        if (terminal) {
+            EXPECT_NE(text.find("200 ksamples/s"), std::string::npos) << text;  // of the phase, not of the run
+        } else {
+            EXPECT_TRUE(text.starts_with("rawtexel: loading\nrawtexel: rendering\nrawtexel: 10 % after 0:01\n")) << text;
+        }
+    }
+}
+
+TEST(Progress, AutoNamesAPhaseThatBeginsLateOnATerminalOnly) {
+    for (const bool terminal : {false, true}) {
+        Report report(ProgressMode::Auto, terminal);
+        report.progress.begin("loading");
+        report.now += 5.0;
+        report.progress.begin("preparing light");
+        EXPECT_EQ(report.out.str(), terminal ? "\r\033[Kpreparing light" : "");
+        report.progress.clear();
+        EXPECT_EQ(report.out.str(), terminal ? "\r\033[Kpreparing light\r\033[K" : "");
+    }
+}
+
 TEST(Progress, AlwaysSaysThatAShortRunEnded) {
     Report report(ProgressMode::Always, false);
     report.progress.finish();
@@ -67,6 +105,7 @@ TEST(Progress, AlwaysSaysThatAShortRunEnded) {
 
 TEST(Progress, ATerminalGetsABarWithRateAndTimeLeft) {
     Report report(ProgressMode::Auto, true);
+    report.progress.begin("rendering", 2e6);
     report.now += 10.0;
     report.progress.update(0.25);
     const std::string text = report.out.str();
@@ -93,7 +132,8 @@ TEST(Progress, TheBarIsGoneWhenARunFails) {
     std::ostringstream out;
     double now = 0.0;
     {
-        ProgressReport progress(out, ProgressMode::Always, true, 1.0, [&] { return now; });
+        ProgressReport progress(out, ProgressMode::Always, true, [&] { return now; });
+        progress.begin("rendering", 1.0);
         now = 1.0;
         progress.update(0.5);
         EXPECT_FALSE(out.str().ends_with("\r\033[K"));

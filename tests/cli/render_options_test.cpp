@@ -106,13 +106,45 @@ TEST(RenderOptions, WrongValuesAreRefusedWithTheNearest) {
         {{"--seed", "-1"}, "--seed: '-1' is not a whole number from 0 to 4294967295"},
         {{"--fov", "180"}, "--fov: '180' is not a number from 0.01 to 179"},
         {{"--light", "0,0,0"}, "--light: '0,0,0' has no direction"},
-        {{"--orbit", "1,2,0"}, "--orbit: '1,2,0' has a ZOOM of 0 or less"},
+        {{"--light", "0,-1,0,-1"}, "--light: '0,-1,0,-1' has I -1 (allowed: 0 to 1e15)"},
+        {{"--orbit", "1,2,0"}, "--orbit: '1,2,0' has ZOOM 0 (allowed: 1e-6 to 1e6)"},
+        {{"--orbit", "1,2,2e6"}, "--orbit: '1,2,2e6' has ZOOM 2e+06 (allowed: 1e-6 to 1e6)"},
+        {{"--orbit", "36001,2"}, "--orbit: '36001,2' has YAW 36001 (allowed: -36000 to 36000)"},
+        {{"--orbit", "1,-1e9,2"}, "--orbit: '1,-1e9,2' has PITCH -1e+09 (allowed: -36000 to 36000)"},
+        {{"--ambient", "1e7"}, "--ambient: '1e7' is not a number from 0 to 1e6"},
+        {{"--background", "0,-1,0"}, "--background: '0,-1,0' is not environment or R,G,B from 0 to 1e15"},
+        {{"--eye", "0,0,2e15"}, "--eye: '0,0,2e15' is not X,Y,Z from -1e15 to 1e15"},
+        {{"--environment", "skyy"}, "--environment: unknown value 'skyy', the nearest is 'sky' (sky none), or the path of an image"},
+        {{"--environment", "nnone"}, "--environment: unknown value 'nnone', the nearest is 'none' (sky none), or the path of an image"},
         {{"--crop", "0,0,0,5"}, "--crop: '0,0,0,5' is empty"},
         {{"--crop", "0,0,10,10", "--size", "9x20"}, "--crop: 0,0,10,10 reaches outside the image of 9x20"},
         {{"--camera", "a", "--orbit", "1,2"}, "--camera and --orbit exclude each other"},
         {{"--orbit", "1,2", "--eye", "1,2,3"}, "--orbit and --eye exclude each other"},
     };
     for (const auto& [words, message] : cases) EXPECT_EQ(error_of(words), message);
+}
+
+TEST(RenderOptions, WhatLooksLikeAFileIsOneWhetherItExistsOrNot) {
+    for (const char* text : {"studio.hdr", "./skyy", "folder/sky", "/skyy"})
+        EXPECT_EQ(parse_environment(text), (EnvironmentOption{EnvironmentKind::File, text}));
+}
+
+TEST(RenderOptions, HelpSaysTheRangeOfEveryNumber) {
+    CommandLine line("", "");
+    RenderRequest request;
+    declare_render_options(line, request);
+    std::string help = line.help();
+    for (size_t end; (end = help.find("\n   ")) != help.npos;) help.erase(end, help.find_first_not_of(" \n", end) - end - 1).at(end) = ' ';
+    const std::initializer_list<std::pair<const char*, const char*>> ranges{
+        {"--size", "1 to 16384"},        {"--orbit", "-36000 to 36000"}, {"--orbit", "1e-6 to 1e6"},  {"--eye", "-1e15 to 1e15"},
+        {"--fov", "0.01 to 179"},        {"--light", "0 to 1e15"},       {"--ambient", "0 to 1e6"},   {"--background", "0 to 1e15"},
+        {"--spp", "1 to 1048576"},       {"--seed", "0 to 4294967295"},  {"--exposure", "-64 to 64"}, {"--threads", "1 to 1024"},
+        {"--tile-size", "32, 64 or 128"}};
+    for (const auto& [option, range] : ranges) {
+        const size_t start = help.find(std::string("  ") + option + " "), end = help.find('\n', start);
+        ASSERT_NE(start, help.npos) << option;
+        EXPECT_NE(help.substr(start, end - start).find(range), help.npos) << help.substr(start, end - start);
+    }
 }
 
 TEST(RenderOptions, WhatLaterVersionsMayKnowIsUnknownNow) {

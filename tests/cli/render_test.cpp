@@ -12,7 +12,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <iterator>
 #include <sstream>
@@ -280,12 +283,46 @@ TEST(Render, ScenariosOfFidelityToolsRender) {
     EXPECT_EQ(why_not_failed(run({"render", "--scenario", missing.dump()}), kBadInput, "missing.glb"), "");
 }
 
+TEST(Render, EdgesOfAScenarioAreMixedWithWhiteAsDisplayed) {
+    const TemporaryFolder folder;
+    const std::string scene = test::write_quad(folder);
+    // A dark quad: without lights and under no sky it is black. At this distance its edge is in the middle of a pixel.
+    const auto words = [&](const char* output, const char* spp) {
+        const Json scenario{{"scenario",
+                             {{"dimensions", {{"width", 40}, {"height", 40}}},
+                              {"target", {{"x", 0}, {"y", 0}, {"z", 0}}},
+                              {"orbit", {{"theta", 0}, {"phi", 90}, {"radius", 3.863}}},
+                              {"verticalFoV", 45},
+                              {"renderSkybox", false},
+                              {"model", scene}}},
+                            {"outputFile", folder / output}};
+        return Words{"render", "--scenario", scenario.dump(), "--environment", "none", "--spp", spp, "--progress", "never"};
+    };
+    const auto check = [&](const char* output, float white) {
+        EXPECT_EQ(why_not_rendered(words(output, "16")), "");
+        const shading::Image image = scenes::read_image(folder / output, false);
+        // Along a row from outside to inside: white, then a mix in steps of a sixteenth, then black.
+        EXPECT_EQ(image.pixel(0, 20)[0], white);
+        EXPECT_EQ(image.pixel(20, 20)[0], 0.0f);
+        int mixed = 0;
+        for (int x = 0; x < 20; ++x) {
+            const float value = image.pixel(x, 20)[0];
+            mixed += value > 0.0f && value < white;
+            EXPECT_NEAR(value * 16.0f, std::round(value * 16.0f), 16.5f / 255.0f) << output << " " << x;
+        }
+        EXPECT_GE(mixed, 1) << output;
+    };
+    check("out.png", 1.0f);
+    check("out.exr", 1.0f);
+}
+
 TEST(Render, ProgressIsPlainLinesWhereThereIsNoTerminal) {
     const TemporaryFolder folder;
     const std::string scene = test::write_quad(folder);
     const test::Outcome outcome =
         run({"render", scene, "-o", folder / "a.png", "--size", "300x300", "--environment", "none", "--progress", "always"});
     ASSERT_EQ(outcome.code, kDone);
+    EXPECT_TRUE(outcome.err.starts_with("rawtexel: loading\nrawtexel: preparing light\nrawtexel: rendering\nrawtexel: ")) << outcome.err;
     EXPECT_TRUE(outcome.err.ends_with("100 % after 0:00\n")) << outcome.err;
     EXPECT_EQ(outcome.err.find('\r'), std::string::npos);
 }
@@ -302,14 +339,92 @@ TEST(Render, AnUnavailableInstructionSetIsNotSilentlyReplaced) {
     texunit::choose_simd(texunit::Simd::Auto);
 }
 
+TEST(Render, MetadataTellsWhatMadeTheImage) {
+    const TemporaryFolder folder;
+    const std::string scene = test::write_quad(folder);
+    const Words more{"--exposure", "1.5",    "--tonemap", "reinhard",      "--transfer", "sqrt",   "--pixel-jitter",
+                     "pixel",      "--crop", "8,4,20,10", "--mip-storage", "float",      "--count"};
+    ASSERT_EQ(why_not_rendered(render_words(scene, folder / "a.png", more)), "");
+    const std::string png = test::read_file(folder / "a.png");
+    const auto holds = [](const std::string& bytes, const std::string& key, const std::string& value) {
+        const size_t at = bytes.find("rawtexel:" + key);
+        return at != bytes.npos && bytes.substr(at, key.size() + value.size() + 40).find(value) != bytes.npos;
+    };
+    for (const auto& [key, value] : {std::pair{"exposure", "1.5"},
+                                     {"tonemap", "reinhard"},
+                                     {"transfer", "sqrt"},
+                                     {"pixel-jitter", "pixel"},
+                                     {"crop", "8,4,20,10"},
+                                     {"mip-storage", "float"},
+                                     {"lookups", ""}})
+        EXPECT_TRUE(holds(png, key, value)) << key;
+    ASSERT_EQ(why_not_rendered(render_words(scene, folder / "a.exr")), "");
+    const std::string exr = test::read_file(folder / "a.exr");
+    EXPECT_TRUE(holds(exr, "mip-storage", "source"));
+    for (const char* key : {"exposure", "tonemap", "transfer", "crop", "lookups"})
+        EXPECT_EQ(exr.find(std::string("rawtexel:") + key), exr.npos) << key;
+}
+
+TEST(Render, ACropLiesWhereItBelongsInItsOpenExr) {
+    const TemporaryFolder folder;
+    const std::string scene = test::write_quad(folder);
+    ASSERT_EQ(why_not_rendered(render_words(scene, folder / "a.exr", {"--crop", "8,4,20,10"})), "");
+    const std::string exr = test::read_file(folder / "a.exr");
+    // An attribute: name, type, size, then xMin, yMin, xMax, yMax as 32-bit integers.
+    const auto window = [&](const std::string& name) {
+        const size_t at = exr.find(name + '\0' + "box2i" + '\0') + name.size() + 1 + 6 + 4;
+        std::array<int32_t, 4> box{};
+        std::memcpy(box.data(), exr.data() + at, sizeof box);
+        return box;
+    };
+    EXPECT_EQ(window("dataWindow"), (std::array<int32_t, 4>{8, 4, 27, 13}));
+    EXPECT_EQ(window("displayWindow"), (std::array<int32_t, 4>{0, 0, 71, 55}));
+}
+
 // --- what goes wrong
+
+TEST(RenderErrors, NoFileOfASceneIsOverwrittenAndNoOutputTwice) {
+    const TemporaryFolder folder;
+    const std::string scene = test::write_quad(folder);
+    scenes::write_8bit(folder / "sky.png", 4, 2, 3, std::vector<uint8_t>(24, 99), {});
+    const std::string texture = test::read_file(folder / "texture.png"), sky = test::read_file(folder / "sky.png");
+    EXPECT_EQ(why_not_failed(run(render_words(scene, folder / "a.png", {"--stats", folder / "a.png"})), kWrongUsage,
+                             "--stats: '" + folder / "a.png"),
+              "");
+    EXPECT_EQ(why_not_failed(run(render_words(scene, folder / "texture.png")), kWrongUsage, "would replace a file that is read"), "");
+    EXPECT_EQ(why_not_failed(run(render_words(scene, folder / "sky.png", {"--environment", folder / "sky.png"})), kWrongUsage, "sky.png"),
+              "");
+    EXPECT_EQ(
+        why_not_failed(run(render_words(scene, folder / "a.png", {"--stats", scene})), kWrongUsage, "would replace a file that is read"),
+        "");
+    EXPECT_EQ(why_not_failed(run({"export", folder / "q.glb", "-o", folder / "q.glb"}), kWrongUsage, "q.glb"), "");
+    EXPECT_EQ(test::read_file(folder / "texture.png"), texture);
+    EXPECT_EQ(test::read_file(folder / "sky.png"), sky);
+    EXPECT_EQ(folder.entries(), (std::vector<std::string>{"quad.bin", "quad.gltf", "sky.png", "texture.png"}));
+}
+
+TEST(RenderErrors, ScenesTooLargeForSinglePrecisionAreExitCode3) {
+    const TemporaryFolder folder;
+    const std::string scene = test::write_quad(folder);
+    Json json = Json::parse(test::read_file(scene));
+    json["nodes"][0]["scale"] = {1e30, 1e30, 1e30};
+    test::write_file(scene, json.dump());
+    EXPECT_EQ(why_not_failed(run(render_words(scene, folder / "a.exr")), kBadInput, "the scene reaches 1e+30 metres (allowed: below 1e15)"),
+              "");
+    // What is allowed is drawn in numbers.
+    json["nodes"][0]["scale"] = {9e14, 9e14, 9e14};
+    test::write_file(scene, json.dump());
+    for (const char* environment : {"none", "sky"})
+        for (const float value : rendered(folder, scene, {"--environment", environment}).values)
+            ASSERT_TRUE(std::isfinite(value)) << environment;
+}
 
 TEST(RenderErrors, OutputThatCannotBeWrittenIsExitCode4BeforeTheRender) {
     const TemporaryFolder folder;
     const std::string scene = test::write_quad(folder);
-    const std::vector<std::string> before = folder.names();
+    const std::vector<std::string> before = folder.entries();
     for (const std::string& place :
-         {folder / "missing/a.png", scene + "/a.png", folder.str() + "/../missing/a.exr", std::string("/proc/a.png")})
+         {folder / "missing/a.png", scene + "/a.png", folder.path() + "/../missing/a.exr", std::string("/proc/a.png")})
         EXPECT_EQ(why_not_failed(run(render_words(scene, place)), kCannotWrite, place), "");
     // The output is looked at before the scene, which is missing too.
     EXPECT_EQ(why_not_failed(run(render_words(folder / "none.gltf", folder / "missing/a.png")), kCannotWrite, "missing/a.png"), "");
@@ -319,7 +434,7 @@ TEST(RenderErrors, OutputThatCannotBeWrittenIsExitCode4BeforeTheRender) {
         why_not_failed(run(render_words(scene, folder / "a.png", {"--stats", folder / "missing/s.json"})), kCannotWrite, "missing/s.json"),
         "");
     std::filesystem::remove(folder / "folder.png");
-    EXPECT_EQ(folder.names(), before);
+    EXPECT_EQ(folder.entries(), before);
 }
 
 TEST(RenderErrors, ScenesThatCannotBeReadAreExitCode3) {
@@ -332,7 +447,7 @@ TEST(RenderErrors, ScenesThatCannotBeReadAreExitCode3) {
     test::write_file(folder / "magic.glb", std::string("glTF\x02\0\0\0\xff\xff\xff\x7f", 12));
     for (const std::string bad : {"missing.gltf", "missing.glb", "empty.gltf", "empty.glb", "half.gltf", "noise.glb", "magic.glb"})
         EXPECT_EQ(why_not_failed(run(render_words(folder / bad, folder / "a.png")), kBadInput, bad), "") << bad;
-    EXPECT_EQ(why_not_failed(run(render_words(folder.str(), folder / "a.png")), kBadInput, folder.str()), "");
+    EXPECT_EQ(why_not_failed(run(render_words(folder.path(), folder / "a.png")), kBadInput, folder.path()), "");
     EXPECT_EQ(why_not_failed(run(render_words("plan", folder / "a.png")), kBadInput, "plane"), "");
     EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
 }
@@ -362,7 +477,7 @@ TEST(RenderErrors, EveryFileOfASceneMustBeThere) {
     }
     std::filesystem::remove(folder / "quad.bin");
     EXPECT_EQ(fails_with("quad.bin"), "");
-    EXPECT_EQ(folder.names(), (std::vector<std::string>{"quad.gltf", "texture.png"}));
+    EXPECT_EQ(folder.entries(), (std::vector<std::string>{"quad.gltf", "texture.png"}));
 }
 
 TEST(RenderErrors, EnvironmentsThatCannotBeReadAreExitCode3) {
@@ -387,10 +502,10 @@ TEST(RenderErrors, NoFileIsLeftWhenARenderFails) {
     const std::string png = test::read_file(folder / "texture.png");
     test::write_file(folder / "texture.png", png.substr(0, png.size() - 200));
     test::write_file(folder / "a.png", "what was there before");
-    const std::vector<std::string> before = folder.names();
+    const std::vector<std::string> before = folder.entries();
     EXPECT_EQ(why_not_failed(run_built(render_words(scene, folder / "a.png", {"--stats", folder / "s.json"})), kBadInput, "texture.png"),
               "");
-    EXPECT_EQ(folder.names(), before);
+    EXPECT_EQ(folder.entries(), before);
     EXPECT_EQ(test::read_file(folder / "a.png"), "what was there before");
 }
 
@@ -409,7 +524,7 @@ TEST(Export, OutputThatCannotBeWrittenIsExitCode4) {
     const TemporaryFolder folder;
     EXPECT_EQ(why_not_failed(run({"export", "magnify", "-o", folder / "missing/x.glb"}), kCannotWrite, "missing/x.glb"), "");
     EXPECT_EQ(why_not_failed(run({"export", folder / "none.gltf", "-o", folder / "x.glb"}), kBadInput, "none.gltf"), "");
-    EXPECT_TRUE(folder.names().empty());
+    EXPECT_TRUE(folder.entries().empty());
 }
 
 // --- real files

@@ -137,7 +137,7 @@ TEST(Stats, EveryKeyIsAListedCounter) {
 
 TEST(Metadata, HoldsWhatMadeTheImage) {
     const Sample sample(true);
-    const scenes::Metadata metadata = image_metadata(sample.record);
+    const scenes::Metadata metadata = image_metadata(sample.record, true);
     const auto value = [&](const std::string& key) {
         const auto found = std::ranges::find(metadata, key, &scenes::Metadata::value_type::first);
         return found == metadata.end() ? "missing" : found->second;
@@ -152,7 +152,7 @@ TEST(Metadata, HoldsWhatMadeTheImage) {
     EXPECT_EQ(value("rawtexel:taps"), "102");
     EXPECT_EQ(value("rawtexel:texels_requested"), "103");
     const Sample uncounted(false);
-    for (const auto& [key, text] : image_metadata(uncounted.record)) EXPECT_NE(key, "rawtexel:taps");
+    for (const auto& [key, text] : image_metadata(uncounted.record, false)) EXPECT_NE(key, "rawtexel:taps");
 }
 
 TEST(ShellQuoting, IsReadBackByAShell) {

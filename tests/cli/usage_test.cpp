@@ -52,6 +52,10 @@ TEST(Usage, WrongWordsAreExitCode2WithTheNearestSpelling) {
         {{"--verison"}, "'--version'"},
         {{"--size", "1x1"}, "unknown command '1x1'"},
         {{"render", "a\nb", "-o", "x.p\nng"}, "-o"},
+        {{"render", "", "-o", "x.png"}, "an argument is empty"},
+        {{"help", "rendr"}, "unknown command 'rendr', the nearest is 'render'"},
+        {{"help", "render", "list"}, "unexpected argument 'list'"},
+        {{"hlep"}, "the nearest is 'help'"},
     };
     for (const auto& [words, part] : cases) EXPECT_EQ(why_not_failed(run(words), kWrongUsage, part), "");
 }
@@ -92,6 +96,23 @@ TEST(Usage, HelpIsComplete) {
             EXPECT_EQ(outcome.code, 0);
             for (const char* part : parts) EXPECT_NE(outcome.out.find(part), std::string::npos) << command << " " << part;
         }
+}
+
+TEST(Usage, HelpIsACommandToo) {
+    for (const std::string command : {"render", "compare", "list", "export"})
+        EXPECT_EQ(run({"help", command}).out, run({command, "--help"}).out) << command;
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"help"}, {"help", "help"}, {"help", "--help"}})
+        EXPECT_EQ(run(words).out, run({"--help"}).out);
+}
+
+TEST(Usage, TheVersionIsToldAfterACommandToo) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"--version"}, {"render", "--version"}, {"list", "scenes", "--version"}}) {
+        const test::Outcome outcome = run(words);
+        EXPECT_EQ(outcome.code, 0);
+        EXPECT_EQ(outcome.out, "rawtexel " + std::string(version()) + "\n");
+    }
+    EXPECT_NE(run({"render", "--help"}).out.find("--version"), std::string::npos);
 }
 
 TEST(Usage, TheCommandMayComeLast) {

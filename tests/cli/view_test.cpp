@@ -1,5 +1,7 @@
 #include "cli/view.h"
 
+#include "cli/word_list.h"
+
 #include "cli/option_values.h"
 
 #include <gtest/gtest.h>
