@@ -140,7 +140,7 @@ HWY_INLINE Line variance_line(const Axes& axes, IntVec exponent, const SamplerSt
 }
 
 /// Chooses levels and probes for all lanes of `at`; sampler.probes > 1.
-HWY_NOINLINE void select_footprint(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at, LevelChoice& choice,
+HWY_NOINLINE inline void select_footprint(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at, LevelChoice& choice,
                                    ProbeChoice& probes) {
     const FloatTag d;
     const IntTag di;

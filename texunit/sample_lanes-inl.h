@@ -1,5 +1,7 @@
 // One lookup for a wave on this instruction set, from coordinates to colour: the definitions behind texunit/sample-inl.h.
 #include "texunit/cube-inl.h"
+#include "texunit/elliptical-inl.h"
+#include "texunit/probes-inl.h"
 #include "texunit/sample_levels-inl.h"
 
 #include <hwy/highway.h>
@@ -57,8 +59,6 @@ HWY_NOINLINE void sample_lanes(Texture& texture, const SamplerState& sampler, co
     if (mask != kWaveFull) fill_inactive(coordinates, mask, filled);
     const WaveCoordinates& at = mask == kWaveFull ? coordinates : filled;
 
-    LevelChoice choice;
-    choose_levels(texture, sampler, at, choice, lod);
     WavePosition position{&at.u, &at.v};
     WaveInt slice;
     if (layer != nullptr) {
@@ -66,7 +66,22 @@ HWY_NOINLINE void sample_lanes(Texture& texture, const SamplerState& sampler, co
         position.slice = &slice;
     }
     count_lookups(texture, mask, count);
-    sample_levels(texture, sampler, position, choice, mask, count, out);
+    if (sampler.ellipse > 0) {
+        WaveFloat level;
+        return sample_ellipses(texture, sampler, at, position.slice, mask, count, out, lod == nullptr ? level : *lod);
+    }
+    LevelChoice choice;
+    if (sampler.probes == 1) {
+        choose_levels(texture, sampler, at, choice, lod);
+        return sample_levels(texture, sampler, position, choice, mask, count, out);
+    }
+    ProbeChoice probes;
+    select_footprint(texture.levels(), sampler, at, choice, probes);
+    if (lod != nullptr) *lod = choice.lod;
+    const auto sample_at = [&](const WavePosition& place, WaveMask active, WaveColor& colour) HWY_ATTR {
+        sample_levels(texture, sampler, place, choice, active, count, colour);
+    };
+    sample_probes(sampler, probes, position, mask, count, sample_at, out);
 }
 
 HWY_INLINE void fill_inactive(const WaveCoordinates3& at, WaveMask mask, WaveCoordinates3& filled) {
