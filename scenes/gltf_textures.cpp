@@ -20,6 +20,7 @@ class EncodedBytes final : public texunit::ByteSource {
         : name_(std::move(name)), bytes_(std::move(bytes)) {}
     uint64_t size() const override { return bytes_->size(); }
     const std::string& name() const override { return name_; }
+    bool in_memory() const override { return true; }
     void read(uint64_t offset, std::span<std::byte> out) const override {
         if (offset > bytes_->size() || out.size() > bytes_->size() - offset)
             throw texunit::TextureError(name_ + ": truncated (" + std::to_string(bytes_->size()) + " bytes, " +
