@@ -191,12 +191,11 @@ HWY_INLINE V gaussian_weights(float sigma, int taps, V remainder, float* weights
 /// The normal density at those texel centres that lie within 4 sigma, and at the nearest in any case, normalised. Taken relative to the
 /// nearest one: exp(-((m + delta)^2 - delta^2) / (2*sigma^2)) at the m-th texel after it, which lies delta after the coordinate.
 template <class V>
-HWY_INLINE V gaussian_point_weights(float sigma, int taps, V fraction, float* weights, size_t stride) {
+HWY_INLINE V gaussian_point_weights(float sigma, int taps, V nearest, V fraction, float* weights, size_t stride) {
     const hn::DFromV<V> d;
     const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     // Texels ceil(fraction - 4*sigma) to floor(fraction + 4*sigma), taken apart so that nothing rounds.
     const float reach = 4 * sigma, whole = std::floor(reach), part = reach - whole;
-    const V nearest = hn::IfThenElseZero(fraction >= hn::Set(d, 0.5f), one);
     const V lowest = hn::Sub(hn::IfThenElseZero(fraction > hn::Set(d, part), one), hn::Set(d, whole));
     const V last = hn::Add(hn::IfThenElseZero(fraction >= hn::Set(d, 1 - part), one), hn::Set(d, whole));
     const V first = hn::Min(lowest, nearest);
@@ -230,7 +229,8 @@ HWY_INLINE V kernel_weights(const Kernel& kernel, V remainder, float* weights, s
     V before, fraction;
     split_between_centres(remainder, before, fraction);
     if (kernel.kind == KernelKind::GaussianPoint) {
-        return hn::Add(before, gaussian_point_weights(kernel.b, taps, fraction, weights, stride));
+        const V nearest = hn::Sub(nearest_texel(remainder), before);
+        return hn::Add(before, gaussian_point_weights(kernel.b, taps, nearest, fraction, weights, stride));
     }
 
     const auto store = [&](const auto& weight, V first) HWY_ATTR {
