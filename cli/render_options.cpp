@@ -49,7 +49,7 @@ void declare_image_options(CommandLine& line, RenderRequest& request) {
     line.group("Image");
     line.option("--size", "WxH", "extents in pixels, 1 to " + std::to_string(kMaxImageExtent) + " (default 1280x720)",
                 [&](const std::string& text) { request.size = parse_size(text); });
-    line.option("--crop", "X,Y,W,H", "only this part of the image; its pixels are those of the whole",
+    line.option("--crop", "X,Y,W,H", "only this part of the image, in its pixels; they are those of the whole",
                 [&](const std::string& text) { request.crop = parse_crop(text); });
 }
 
@@ -62,7 +62,7 @@ void declare_view_options(CommandLine& line, ViewOptions& view) {
         [&](const std::string& text) { view.orbit = parse_orbit(text); });
     line.option("--eye", "X,Y,Z", "where the camera is: metres, " + print(kLength),
                 [&](const std::string& text) { view.eye = parse_vector("--eye", text); });
-    line.option("--target", "X,Y,Z", "what it looks at (default: the scene's centre)",
+    line.option("--target", "X,Y,Z", "what it looks at: metres, " + print(kLength) + " (default: the scene's centre)",
                 [&](const std::string& text) { view.target = parse_vector("--target", text); });
     line.option("--fov", "DEGREES", "vertical field of view, " + print(kFov),
                 [&](const std::string& text) { view.fov = parse_number("--fov", text, kFov); });

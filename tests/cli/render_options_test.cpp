@@ -136,10 +136,10 @@ TEST(RenderOptions, HelpSaysTheRangeOfEveryNumber) {
     std::string help = line.help();
     for (size_t end; (end = help.find("\n   ")) != help.npos;) help.erase(end, help.find_first_not_of(" \n", end) - end - 1).at(end) = ' ';
     const std::initializer_list<std::pair<const char*, const char*>> ranges{
-        {"--size", "1 to 16384"},        {"--orbit", "-36000 to 36000"}, {"--orbit", "1e-6 to 1e6"},  {"--eye", "-1e15 to 1e15"},
-        {"--fov", "0.01 to 179"},        {"--light", "0 to 1e15"},       {"--ambient", "0 to 1e6"},   {"--background", "0 to 1e15"},
-        {"--spp", "1 to 1048576"},       {"--seed", "0 to 4294967295"},  {"--exposure", "-64 to 64"}, {"--threads", "1 to 1024"},
-        {"--tile-size", "32, 64 or 128"}};
+        {"--size", "1 to 16384"},      {"--orbit", "-36000 to 36000"},  {"--orbit", "1e-6 to 1e6"},    {"--eye", "-1e15 to 1e15"},
+        {"--target", "-1e15 to 1e15"}, {"--fov", "0.01 to 179"},        {"--light", "0 to 1e15"},      {"--ambient", "0 to 1e6"},
+        {"--background", "0 to 1e15"}, {"--spp", "1 to 1048576"},       {"--seed", "0 to 4294967295"}, {"--exposure", "-64 to 64"},
+        {"--threads", "1 to 1024"},    {"--tile-size", "32, 64 or 128"}};
     for (const auto& [option, range] : ranges) {
         const size_t start = help.find(std::string("  ") + option + " "), end = help.find('\n', start);
         ASSERT_NE(start, help.npos) << option;
