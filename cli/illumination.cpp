@@ -60,8 +60,11 @@ shading::Lighting make_lighting(const Scene& scene, const LightOptions& options,
         const shading::Sun sun = shading::sky_sun();
         lights.push_back(directional("sun", sun.direction, sun.intensity, sun.color));
     }
-    return shading::resolve_lighting(scene, std::move(lights), options.ambient.value_or(0.0f), load_environment(environment, executor),
-                                     options.shadows.value_or(true), executor);
+    shading::Lighting lighting =
+        shading::resolve_lighting(scene, std::move(lights), options.ambient.value_or(0.0f), load_environment(environment, executor),
+                                  options.shadows.value_or(true), executor);
+    lighting.reflections = options.reflections;
+    return lighting;
 }
 
 }  // namespace rawtexel::cli

@@ -82,6 +82,13 @@ void declare_light_options(CommandLine& line, LightOptions& light) {
     line.option("--environment", "sky|none|FILE",
                 "light from all around; FILE is a lat-long image (default: sky where the scene has no lights, else none)",
                 [&](const std::string& text) { light.environment = parse_environment(text); });
+    line.option("--environment-reflections", "prefiltered|split-sum",
+                "several prefiltered lobes a reflection, within 1 % of sampling (the default), or one, cheaper and some per cent off",
+                [&](const std::string& text) {
+                    using shading::EnvironmentReflections;
+                    light.reflections = parse_choice("--environment-reflections", text,
+                                                     {EnvironmentReflections::Prefiltered, EnvironmentReflections::SplitSum});
+                });
     line.option("--background", "environment|R,G,B",
                 "what shows where nothing is, in linear radiance, " + print(kRadiance) + " (default environment)",
                 [&](const std::string& text) { light.background = parse_background(text); });

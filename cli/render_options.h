@@ -59,7 +59,8 @@ struct LightOptions {
     std::optional<float> ambient;                  ///< unset: 0
     std::optional<bool> shadows;                   ///< unset: on
     std::optional<EnvironmentOption> environment;  ///< unset: the sky where the file has no lights
-    std::optional<glm::vec3> background;           ///< unset: the environment
+    shading::EnvironmentReflections reflections = shading::EnvironmentReflections::Prefiltered;
+    std::optional<glm::vec3> background;  ///< unset: the environment
     bool peer_shading = false;
 };
 

@@ -147,16 +147,17 @@ HWY_INLINE Vector3<V> level_radiance(D d, const Environment::Tables& tables, con
     return {mixed(d, at, t00.x, t10.x, t01.x, t11.x), mixed(d, at, t00.y, t10.y, t01.y, t11.y), mixed(d, at, t00.z, t10.z, t01.z, t11.z)};
 }
 
-/// Level of detail of a perceptual roughness in [0, 1]: see RoughnessScale.
+/// Level of detail of a roughness in [0, kFlatRoughness]: see RoughnessScale.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V roughness_level(D d, const RoughnessScale& scale, V roughness) {
     const float first = scale.first, bend = RoughnessScale::kBend;
     const V one = hn::Set(d, 1.0f), offset = hn::Sub(roughness, hn::Set(d, first));
-    const float slope = float(kSpecularLevels - 2) * (1.0f + bend) / (1.0f - first);
+    const float slope = float(kCosineLevel - 1) * (1.0f + bend) / (1.0f - first);
     const V wide = hn::Add(hn::Div(hn::Mul(offset, hn::Set(d, slope)), hn::Add(roughness, hn::Set(d, bend))), one);
     const V ratio = hn::Mul(roughness, hn::Set(d, 1.0f / first));
     const V narrow = hn::Mul(hn::Mul(ratio, ratio), hn::Sqrt(ratio));
-    return hn::IfThenElse(hn::Lt(offset, hn::Zero(d)), narrow, wide);
+    const V flat = hn::Add(hn::Sub(roughness, one), hn::Set(d, float(kCosineLevel)));
+    return hn::IfThenElse(hn::Lt(offset, hn::Zero(d)), narrow, hn::IfThenElse(hn::Gt(roughness, one), flat, wide));
 }
 
 /// Mean radiance over the GGX lobe (n = v = r) about `direction` (of any length).
@@ -176,7 +177,7 @@ HWY_INLINE Vector3<V> specular_radiance(D d, const Environment::Tables& tables, 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vector3<V> diffuse_radiance(D d, const Environment::Tables& tables, const Vector3<V>& normal) {
     const hn::RebindToSigned<D> di;
-    return level_radiance(d, tables, octahedral_point(d, normal), hn::Set(di, kSpecularLevels - 1));
+    return level_radiance(d, tables, octahedral_point(d, normal), hn::Set(di, kCosineLevel));
 }
 
 /// What a camera sees of the environment: the radiance from unit `direction` at the lanes of `mask`.

@@ -26,8 +26,17 @@ Image clean_radiance(const Image& latlong) {
 
 float RoughnessScale::roughness_of(int level) const {
     if (level == 0) return 0.0f;
-    const float t = float(level - 1) / float(kSpecularLevels - 2);
+    if (level > kCosineLevel) return kFlatRoughness;
+    const float t = float(level - 1) / float(kCosineLevel - 1);
     return (first * (1.0f + kBend) + t * kBend * (1.0f - first)) / ((1.0f + kBend) - t * (1.0f - first));
+}
+
+std::string_view to_string(EnvironmentReflections reflections) {
+    switch (reflections) {
+        case EnvironmentReflections::Prefiltered: return "prefiltered";
+        case EnvironmentReflections::SplitSum: return "split-sum";
+    }
+    return "";
 }
 
 Environment::Environment(const Image& latlong, Executor& executor) {

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
 namespace rawtexel::shading {
@@ -22,7 +23,8 @@ class Environment {
     glm::vec3 radiance(const glm::vec3& direction) const;
     /// Irradiance/pi over the hemisphere about `normal`: a white diffuse surface's radiance.
     glm::vec3 diffuse(const glm::vec3& normal) const;
-    /// Mean radiance over the GGX lobe about `direction` (n = v = r), cosine weighted; `roughness` perceptual 0..1.
+    /// Mean radiance over the GGX lobe about `direction` (n = v = r), cosine weighted; `roughness` perceptual 0..1
+    /// (up to 2: on to the lobe of kFlatRoughness, environment_tables.h).
     glm::vec3 specular(const glm::vec3& direction, float roughness) const;
 
     /// Tables for the vector code (shading/environment-inl.h).
@@ -32,6 +34,11 @@ class Environment {
   private:
     std::shared_ptr<const Tables> tables_;
 };
+
+/// How glossy surfaces reflect an environment. Prefiltered: by several prefiltered lobes in the plane of incidence
+/// (shading/reflection_probes.h), within 1 % of sampling. SplitSum: by one lobe and an albedo, some per cent off at an angle, and cheaper.
+enum class EnvironmentReflections { Prefiltered, SplitSum };
+std::string_view to_string(EnvironmentReflections reflections);  // prefiltered split-sum
 
 /// Directional albedo of single-scattering GGX (height-correlated Smith): scale and bias of F0, by (n.v, perceptual roughness).
 /// Karis 2013, "Real Shading in Unreal Engine 4", split sum; integrated in double at build of the table.

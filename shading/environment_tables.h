@@ -11,17 +11,22 @@
 
 namespace rawtexel::shading {
 
-inline constexpr int kSpecularLevels = 24;
+inline constexpr int kSpecularLevels = 25, kCosineLevel = 23;
+
+/// Roughness of the flattest lobe, c / (1 + c)^2 with c = n.l: that of GGX as alpha grows beyond all bounds. No surface has it: between it
+/// and the cosine lobe lie the reflections of rough surfaces seen at grazing angles.
+inline constexpr float kFlatRoughness = 2.0f;
 
 /// The roughness r of the prefiltered levels. Level 0 is the image itself, level 1 has the narrowest lobe that the image's texels resolve,
-/// the last one has roughness 1: the cosine lobe, which is a white diffuse surface's too. In between the lobes' widths grow about
-/// geometrically: level = 1 + (levels - 2) (r - first) (1 + kBend) / ((r + kBend) (1 - first)); below, level = (r / first)^2.5,
-/// between the shares of the lobes' peaks and of their tails.
+/// kCosineLevel has roughness 1: the cosine lobe, which is a white diffuse surface's too. In between the lobes' widths grow about
+/// geometrically: level = 1 + (kCosineLevel - 1) (r - first) (1 + kBend) / ((r + kBend) (1 - first)); below, level = (r / first)^2.5,
+/// between the shares of the lobes' peaks and of their tails. Above, up to the last level with kFlatRoughness, level = kCosineLevel + r
+/// - 1.
 struct RoughnessScale {
     static constexpr float kBend = 0.3f;
     float first = 0.1f;  ///< roughness of level 1
 
-    float roughness_of(int level) const;  ///< 0, first, ..., 1
+    float roughness_of(int level) const;  ///< 0, first, ..., 1, kFlatRoughness
 };
 
 struct Environment::Tables {

@@ -11,6 +11,7 @@
 #include "shading/ggx_albedo-inl.h"
 #include "shading/lighting.h"
 #include "shading/punctual-inl.h"
+#include "shading/reflection_probes-inl.h"
 #include "shading/shadow-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -35,18 +36,38 @@ HWY_INLINE Vector3<V> punctual_radiance(D d, const Light& light, const ShadowMap
     return {hn::IfThenElseZero(lit, radiance.x), hn::IfThenElseZero(lit, radiance.y), hn::IfThenElseZero(lit, radiance.z)};
 }
 
-/// Radiance that the environment adds. The reflection is a split sum (Karis 2013): its weight times the mean light of the prefiltered lobe
-/// that resembles it most; the diffuse term sees the irradiance.
+/// Environment light that the surface reflects, F0 = 0..1. SplitSum: its weight times the mean light of the prefiltered lobe that resembles
+/// it most (Karis 2013). Prefiltered: a sum over the probes of reflection_probes.h.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE Vector3<V> environment_radiance(D d, const Environment::Tables& tables, const ShadingPoint<V>& p) {
-    const V one = hn::Set(d, 1.0f);
-    const V n_dot_v = hn::Min(p.n_dot_v, one);
+HWY_INLINE Vector3<V> environment_reflection(D d, const Environment::Tables& tables, EnvironmentReflections way, const ShadingPoint<V>& p,
+                                             V n_dot_v) {
     const GgxLobe<V> lobe = ggx_lobe(d, *tables.reflection, n_dot_v, p.roughness);
     const Vector3<V> mirrored = sub(scale(p.normal, hn::Mul(hn::Set(d, 2.0f), dot(p.normal, p.view))), p.view);
-    const Vector3<V> axis = add(mirrored, scale(sub(p.normal, mirrored), lobe.lean));
-    const Vector3<V> arriving = specular_radiance(d, tables, axis, lobe.roughness);
-    const auto specular = [&](V f0, V light) HWY_ATTR { return hn::Mul(hn::Add(hn::Mul(f0, lobe.scale), lobe.bias), light); };
-    Vector3<V> radiance{specular(p.f0.x, arriving.x), specular(p.f0.y, arriving.y), specular(p.f0.z, arriving.z)};
+    const Vector3<V> to_normal = sub(p.normal, mirrored);
+    const auto weighted = [&](V lean, V roughness, V scale_share, V bias_share) HWY_ATTR {
+        const Vector3<V> light = specular_radiance(d, tables, add(mirrored, scale(to_normal, lean)), roughness);
+        const auto channel = [&](V f0, V arriving) HWY_ATTR { return hn::Mul(hn::Add(hn::Mul(f0, scale_share), bias_share), arriving); };
+        return Vector3<V>{channel(p.f0.x, light.x), channel(p.f0.y, light.y), channel(p.f0.z, light.z)};
+    };
+    if (way == EnvironmentReflections::SplitSum) return weighted(lobe.lean, lobe.roughness, lobe.scale, lobe.bias);
+
+    const V zero = hn::Zero(d);
+    Vector3<V> sum{zero, zero, zero};
+    const auto nodes = probe_nodes(d, n_dot_v, p.roughness);
+    for (int k = 0; k < ReflectionProbeTable::kProbes; ++k) {
+        const ReflectionProbe<V> probe = reflection_probe(d, kReflectionProbes, nodes, k);
+        if (hn::AllFalse(d, hn::Gt(hn::Add(probe.scale, probe.bias), zero))) continue;
+        sum = add(sum, weighted(probe.lean, probe.roughness, hn::Mul(lobe.scale, probe.scale), hn::Mul(lobe.bias, probe.bias)));
+    }
+    return sum;
+}
+
+/// Radiance that the environment adds.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vector3<V> environment_radiance(D d, const Environment::Tables& tables, EnvironmentReflections way, const ShadingPoint<V>& p) {
+    const V one = hn::Set(d, 1.0f);
+    const V n_dot_v = hn::Min(p.n_dot_v, one);
+    Vector3<V> radiance = environment_reflection(d, tables, way, p, n_dot_v);
 
     // Metals and black have no diffuse term. Of the others' light, F0 + (1 - F0) * mean Schlick weight is reflected before it enters.
     const V most = hn::Max(hn::Max(p.diffuse.x, p.diffuse.y), p.diffuse.z);
@@ -80,7 +101,7 @@ inline void shade_lanes(const Lighting& lighting, const SurfaceWave& surface, Wa
             sum = add(sum, punctual_radiance(d, light, directional ? shadow : nullptr, point));
             if (directional) shadow = nullptr;
         }
-        if (lighting.environment) sum = add(sum, environment_radiance(d, lighting.environment->tables(), point));
+        if (lighting.environment) sum = add(sum, environment_radiance(d, lighting.environment->tables(), lighting.reflections, point));
         store3(d, sum, radiance, i);
     }
 }

@@ -15,6 +15,7 @@ struct Lighting {
     std::vector<Light> lights;
     float ambient = 0.0f;                            ///< adds ambient * base colour * occlusion
     std::shared_ptr<const Environment> environment;  ///< null: none
+    EnvironmentReflections reflections = EnvironmentReflections::Prefiltered;
     /// Shadow of the first directional light, the only one that casts; null: none.
     std::shared_ptr<const ShadowMap> shadow;
 };

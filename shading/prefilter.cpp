@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #ifndef RAWTEXEL_SHADING_PREFILTER_ONCE_
@@ -106,6 +107,13 @@ int mirror_extent(int width) { return whole_blocks(std::clamp(width, 64, 2048));
 
 /// Side of a lobe's map, texels: as fine as the lobe needs and the image deserves.
 int lobe_extent(double alpha, int width) { return whole_blocks(std::clamp(kTexelsPerLobe / alpha, kLeastExtent, greatest_extent(width))); }
+
+/// Of a lobe's level; infinity: the flattest lobe.
+double alpha_of(int level, const RoughnessScale& scale) {
+    if (level > kCosineLevel) return std::numeric_limits<double>::infinity();
+    const double roughness = scale.roughness_of(level);
+    return roughness * roughness;
+}
 
 /// Walks the tree for one block of outputs.
 class PatchSelection {
@@ -211,11 +219,15 @@ void fill_border(const LevelMap& map) {
 
 }  // namespace
 
-LobeKernel::LobeKernel(double alpha) : slope((1.0 - alpha * alpha) / 2.0) {
-    // 1 - (1 - a^2)(1 + c)/2 = offset - slope*c; the integral of 2 pi c / (offset - slope*c)^2 over c in [0, 1].
-    offset = 1.0 - slope;
-    const double integral =
-        slope < 1e-4 ? 0.5 + slope * 5.0 / 3.0 : (offset / (offset - slope) - 1.0 + std::log((offset - slope) / offset)) / (slope * slope);
+LobeKernel::LobeKernel(double alpha) {
+    // 1 - (1 - a^2)(1 + c)/2 = offset - slope*c; divided by a^2/2 where a is infinite.
+    const bool flat = std::isinf(alpha);
+    slope = flat ? -1.0 : (1.0 - alpha * alpha) / 2.0;
+    offset = flat ? 1.0 : 1.0 - slope;
+    // The integral of 2 pi c / (offset - slope*c)^2 over c in [0, 1].
+    const double integral = std::fabs(slope) < 1e-4
+                                ? 0.5 + slope * 5.0 / 3.0
+                                : (offset / (offset - slope) - 1.0 + std::log((offset - slope) / offset)) / (slope * slope);
     normalisation = 1.0 / (2.0 * std::numbers::pi * integral);
 }
 
@@ -229,7 +241,7 @@ void prefilter(const Image& latlong, Executor& executor, Environment::Tables& ta
 
     // The narrowest lobe has an alpha of one finest node: its light is then twice as wide as what the tree resolves.
     const double node = std::numbers::pi * std::max(1.0 / tree[0].height, 2.0 / tree[0].width);
-    tables.scale.first = float(std::sqrt(std::max(node, double(kMinAlpha))));
+    tables.scale.first = float(std::clamp(std::sqrt(node), double(kMinRoughness), 0.9));
 
     // Lay the maps out, finest first: the costly rows start early.
     struct Row {
@@ -238,8 +250,7 @@ void prefilter(const Image& latlong, Executor& executor, Environment::Tables& ta
     std::vector<Row> rows;
     size_t total = 0;
     for (int level = 0; level < kSpecularLevels; ++level) {
-        const double roughness = tables.scale.roughness_of(level);
-        const int extent = level == 0 ? mirror_extent(latlong.width) : lobe_extent(roughness * roughness, latlong.width);
+        const int extent = level == 0 ? mirror_extent(latlong.width) : lobe_extent(alpha_of(level, tables.scale), latlong.width);
         tables.extent[size_t(level)] = extent;
         tables.start[size_t(level)] = int32_t(total);
         total += size_t(extent + 2) * size_t(extent + 2);
@@ -257,7 +268,7 @@ void prefilter(const Image& latlong, Executor& executor, Environment::Tables& ta
             for (int left = 0; left < map.extent; left += kBlock) mirror_block(map, left, top, tables);
             return;
         }
-        const double roughness = tables.scale.roughness_of(level), alpha = roughness * roughness;
+        const double alpha = alpha_of(level, tables.scale);
         const LobeKernel kernel(alpha);
         PatchSelection selection(tree, float(alpha));
         for (int left = 0; left < map.extent; left += kBlock) filter_block(map, left, top, kernel, selection);

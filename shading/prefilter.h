@@ -8,10 +8,11 @@
 namespace rawtexel::shading {
 
 /// Mean of the GGX lobe with n = v = r, cosine weighted, as a kernel of c = n.l: density over solid angle, 0 for c <= 0, integral 1.
-/// D(h) n.l / (4 n.h) with (n.h)^2 = (1 + c)/2 is proportional to c / (1 - (1 - a^2)(1 + c)/2)^2; at a = 1 it is c/pi.
+/// D(h) n.l / (4 n.h) with (n.h)^2 = (1 + c)/2 is proportional to c / (1 - (1 - a^2)(1 + c)/2)^2; at a = 1 it is c/pi,
+/// and as a grows beyond all bounds proportional to c / (1 + c)^2.
 struct LobeKernel {
-    explicit LobeKernel(double alpha);
-    double normalisation;  ///< of c / (offset - slope*c)^2
+    explicit LobeKernel(double alpha);  ///< above 0; infinity: the last of these
+    double normalisation;               ///< of c / (offset - slope*c)^2
     double offset, slope;
     double density(double cosine) const;
 };

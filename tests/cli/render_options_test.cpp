@@ -38,6 +38,7 @@ TEST(RenderOptions, DefaultsAreThoseOfTheContract) {
     EXPECT_EQ(request.machine.tile_size, 64);
     EXPECT_EQ(request.machine.simd, texunit::Simd::Auto);
     EXPECT_EQ(request.machine.progress, ProgressMode::Auto);
+    EXPECT_EQ(request.light.reflections, shading::EnvironmentReflections::Prefiltered);
     EXPECT_FALSE(request.light.light || request.light.ambient || request.light.shadows || request.light.environment ||
                  request.light.background);
 }
@@ -60,6 +61,7 @@ TEST(RenderOptions, EveryOptionReachesItsMember) {
     EXPECT_EQ(request.light.shadows, false);
     EXPECT_EQ(*request.light.environment, (EnvironmentOption{EnvironmentKind::File, "sky.exr"}));
     EXPECT_EQ(request.light.background, glm::vec3(1, 0, 0.5f));
+    EXPECT_EQ(request_of({"--environment-reflections", "split-sum"}).light.reflections, shading::EnvironmentReflections::SplitSum);
     EXPECT_EQ(request.lookup.filter, texunit::Kernel::Nearest);
     EXPECT_EQ(request.lookup.mip, texunit::MipMode::None);
     EXPECT_EQ(request.lookup.mip_storage, texunit::MipStorage::Float);

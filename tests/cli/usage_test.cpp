@@ -82,11 +82,12 @@ TEST(Usage, HelpIsComplete) {
     for (const char* part : {"render", "compare", "list", "export", "--version", "Exit codes"})
         EXPECT_NE(whole.out.find(part), std::string::npos) << part;
     const std::initializer_list<std::pair<const char*, std::vector<const char*>>> commands{
-        {"render", {"--size",      "--crop",     "--camera",       "--orbit",        "--eye",        "--target",       "--fov",
-                    "--light",     "--ambient",  "--shadows",      "--environment",  "--background", "--peer-shading", "--filter",
-                    "--mip",       "--spp",      "--pixel-filter", "--pixel-jitter", "--seed",       "--mip-storage",  "--exposure",
-                    "--tonemap",   "--transfer", "--aov",          "--count",        "--stats",      "--repeat",       "--threads",
-                    "--tile-size", "--simd",     "--progress",     "--scenario",     "-o,--output",  "SCENE",          "--help"}},
+        {"render", {"--size",         "--crop",         "--camera",      "--orbit",     "--eye",         "--target",
+                    "--fov",          "--light",        "--ambient",     "--shadows",   "--environment", "--environment-reflections",
+                    "--background",   "--peer-shading", "--filter",      "--mip",       "--spp",         "--pixel-filter",
+                    "--pixel-jitter", "--seed",         "--mip-storage", "--exposure",  "--tonemap",     "--transfer",
+                    "--aov",          "--count",        "--stats",       "--repeat",    "--threads",     "--tile-size",
+                    "--simd",         "--progress",     "--scenario",    "-o,--output", "SCENE",         "--help"}},
         {"compare", {"-o,--output", "--json", "--csv", "--max-rmse", "--min-psnr", "IMAGE", "REFERENCE"}},
         {"list", {"scenes", "filters", "formats", "counters", "--json"}},
         {"export", {"SCENE", "-o,--output"}}};

@@ -84,6 +84,13 @@ glm::dvec3 ImageIntegral::lobe(const glm::dvec3& normal, double alpha) const {
     return sum / weight;
 }
 
+glm::dvec3 ImageIntegral::reflected(const Surface& surface) const {
+    glm::dvec3 sum(0.0);
+    for (const Point& point : points_)
+        if (glm::dot(surface.normal, point.direction) > 0.0) sum += point.light * brdf_cosine(surface, point.direction);
+    return sum;
+}
+
 glm::dvec3 reflected_light(const shading::Image& image, const Surface& s, int count) {
     const double alpha = std::max(s.roughness * s.roughness, 1e-3), a2 = alpha * alpha, nv = glm::dot(s.normal, s.view);
     const double vx = std::sqrt(std::max(0.0, 1.0 - nv * nv)), smith_view = std::sqrt(nv * nv * (1.0 - a2) + a2);

@@ -31,6 +31,8 @@ class ImageIntegral {
   public:
     ImageIntegral(const shading::Image& image, int points_per_texel);
     glm::dvec3 lobe(const glm::dvec3& normal, double alpha) const;
+    /// Light that a surface reflects towards its view.
+    glm::dvec3 reflected(const Surface& surface) const;
 
   private:
     struct Point {
