@@ -226,9 +226,11 @@ TEST(LazyStorage, CommitsAWindowOfAHugeBc7TextureAndLittleMore) {
     }
     const uint64_t committed = 4096 * committed_pages(texture);
     EXPECT_LE(committed, kDecoded * 15 / 1000);
-    // Whatever else the texture keeps, such as the states of its blocks, is within that too.
+    // Whatever else the texture keeps, such as the states of its blocks, is within that too. Sanitizers keep as much again and more.
     const uint64_t grown = resident_bytes() - before;
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     EXPECT_LE(grown, kDecoded * 15 / 1000);
+#endif
     std::printf("1 %% of the area commits %.3f %% of the decoded size, %.3f %% with all else\n", 100.0 * double(committed) / kDecoded,
                 100.0 * double(grown) / kDecoded);
 }
