@@ -23,18 +23,18 @@ namespace hn = hwy::HWY_NAMESPACE;
 struct AxisView {
     int count;
     const WaveInt* texel;
-    const WaveFloat* weight;   ///< 0 where a lane does not weigh the tap
-    const WaveMask* outside;   ///< lanes beyond an edge, or null
+    const WaveFloat* weight;  ///< 0 where a lane does not weigh the tap
+    const WaveMask* outside;  ///< lanes beyond an edge, or null
 };
 
 /// The taps of one slice of one level: the product of two axes.
 struct TapGrid {
     AxisView x, y;
     const WaveInt* level;
-    const WaveInt* slice;        ///< null: slice 0
-    const WaveFloat* scale;      ///< weight of the slice in a volume, or null
-    WaveMask outside_slice;      ///< lanes whose slice is beyond a border
-    const int32_t* cube_extents; ///< by level, of cube maps; else null
+    const WaveInt* slice;         ///< null: slice 0
+    const WaveFloat* scale;       ///< weight of the slice in a volume, or null
+    WaveMask outside_slice;       ///< lanes whose slice is beyond a border
+    const int32_t* cube_extents;  ///< by level, of cube maps; else null
 };
 
 HWY_INLINE AxisView view(const AxisTaps& taps) { return {taps.count, taps.texel, taps.weight, taps.leaves ? taps.outside : nullptr}; }

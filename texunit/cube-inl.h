@@ -76,7 +76,7 @@ HWY_INLINE CubeTexel<V> fold_onto_faces(CubeTexel<V> at, V extent) {
 /// What an index of a face means: one texel, or beyond a corner, where there is none, the mean of the three texels that meet there.
 template <class V>
 struct CubeTap {
-    CubeTexel<V> texel[3];   ///< all the same but in the lanes of `corner`
+    CubeTexel<V> texel[3];  ///< all the same but in the lanes of `corner`
     hn::Mask<hn::DFromV<V>> corner;
 };
 
@@ -105,8 +105,8 @@ HWY_NOINLINE CubeTap<V> resolve_cube_tap(V slice, V x, V y, V extent) {
 /// Directions into a cube map as coordinates on the face each meets, 0 at its left and top edge and 1 at the others, with derivatives.
 struct CubeCoordinates {
     WaveCoordinates face;
-    WaveFloat u_rest, v_rest;   ///< what rounding took from face.u and face.v
-    WaveInt slice;              ///< the face, 0..5
+    WaveFloat u_rest, v_rest;  ///< what rounding took from face.u and face.v
+    WaveInt slice;             ///< the face, 0..5
 };
 
 /// Lengths do not matter, the zero vector means +Z. On ties Z beats Y beats X (Vulkan "Cube Map Face Selection", D3D11.3 7.18.12).
@@ -158,13 +158,11 @@ HWY_NOINLINE inline void project_onto_faces(const WaveCoordinates3& at, CubeCoor
         const V qs = project(right(x, y, z), out.face.u.lane + i, out.u_rest.lane + i);
         const V qt = project(down(x, y, z), out.face.v.lane + i, out.v_rest.lane + i);
 
-        const auto derive = [&](const WaveFloat (&change)[3], float* ds, float* dt) HWY_ATTR {
+        const auto derive = [&](const WaveFloat(&change)[3], float* ds, float* dt) HWY_ATTR {
             const auto load = [&](int axis) HWY_ATTR { return hn::Load(d, change[axis].lane + i); };
             const V vx = load(0), vy = load(1), vz = load(2);
             const V growth = flip(negative, major(vx, vy, vz));
-            const auto quotient = [&](V part, V q) HWY_ATTR {
-                return hn::Mul(half, hn::Div(hn::Sub(part, hn::Mul(q, growth)), size));
-            };
+            const auto quotient = [&](V part, V q) HWY_ATTR { return hn::Mul(half, hn::Div(hn::Sub(part, hn::Mul(q, growth)), size)); };
             hn::Store(quotient(right(vx, vy, vz), qs), d, ds);
             hn::Store(quotient(down(vx, vy, vz), qt), d, dt);
         };
@@ -172,7 +170,8 @@ HWY_NOINLINE inline void project_onto_faces(const WaveCoordinates3& at, CubeCoor
         derive(at.dy, out.face.dudy.lane + i, out.face.dvdy.lane + i);
 
         const auto number = [&](int n) HWY_ATTR { return hn::Set(di, n); };
-        const auto axis = hn::IfThenElse(hn::RebindMask(di, is_z), number(4), hn::IfThenElse(hn::RebindMask(di, is_y), number(2), number(0)));
+        const auto axis =
+            hn::IfThenElse(hn::RebindMask(di, is_z), number(4), hn::IfThenElse(hn::RebindMask(di, is_y), number(2), number(0)));
         hn::Store(hn::Add(axis, hn::IfThenElseZero(hn::RebindMask(di, negative), number(1))), di, out.slice.lane + i);
     }
 }

@@ -25,9 +25,7 @@ struct CubeEdge {
     bool x_is_depth, flip_x, flip_y;
 
     static constexpr int kFaceBits = 7, kDepthBit = 8, kFlipXBit = 16, kFlipYBit = 32;
-    constexpr int32_t packed() const {
-        return face | (x_is_depth ? kDepthBit : 0) | (flip_x ? kFlipXBit : 0) | (flip_y ? kFlipYBit : 0);
-    }
+    constexpr int32_t packed() const { return face | (x_is_depth ? kDepthBit : 0) | (flip_x ? kFlipXBit : 0) | (flip_y ? kFlipYBit : 0); }
 };
 
 /// Edges of a face: 0 left, 1 right, 2 top, 3 bottom.

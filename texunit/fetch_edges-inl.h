@@ -26,11 +26,13 @@ HWY_INLINE hn::Vec<IntTag> cube_texel_index(const LevelTable& table, hn::Vec<Int
     return hn::Add(hn::Add(look_up_level(d, table.offset, level), slice), hn::Add(column_offset_v<storage>(at.x), row));
 }
 
+/// Whether texels are fields of a word, which a layout turns into numbers.
+constexpr bool is_packed(StorageClass storage) { return storage == StorageClass::Packed32 || storage == StorageClass::Packed64; }
+
 /// Only halves and floats can hold infinities; everything else takes the shorter form.
 template <StorageClass storage, class V>
 HWY_INLINE V mix(V t, V a, V b) {
-    constexpr bool bounded = storage == StorageClass::Packed32 || storage == StorageClass::Packed64;
-    if constexpr (bounded) return lerp(t, a, b);
+    if constexpr (is_packed(storage)) return lerp(t, a, b);
     return lerp_unbounded(t, a, b);
 }
 
@@ -107,35 +109,37 @@ HWY_NOINLINE void mean_at_corners(const WaveMask (&corner)[4], TexelWave<4>& tex
     }
 }
 
-/// Ensures and gathers where taps lie beyond a border's edges.
+/// Ensures and gathers where some taps lie beyond the edges of a border or of a cube map's face.
 template <StorageClass storage, int W>
-HWY_NOINLINE void fetch_with_border(Texture& texture, const std::array<float, 4>& border, const TapWave<W>& taps,
-                                    WaveInt (&index)[W * W], TexelWave<W * W>& out) {
-    WaveMask outside[W * W];
-    outside_taps(taps, outside);
-    if (spare_border_texels(outside, index)) {
+HWY_NOINLINE void fetch_beyond_edges(Texture& texture, const std::array<float, 4>& border, bool cube, const TapWave<W>& taps,
+                                     WaveInt (&index)[W * W], TexelWave<W * W>& out) {
+    if (!cube) {
+        WaveMask outside[W * W];
+        outside_taps(taps, outside);
+        if (spare_border_texels(outside, index)) {
+            ensure(texture, *taps.level, index);
+            gather<storage>(texture, index, out);
+        }
+        return put_border(outside, border, out);
+    }
+    // A single texel is never beyond.
+    if constexpr (W == 2) {
+        WaveMask corner[W * W];
+        fold_cube_taps<storage>(texture.levels(), taps, index, corner);
         ensure(texture, *taps.level, index);
         gather<storage>(texture, index, out);
+        mean_at_corners<storage>(corner, out);
     }
-    put_border(outside, border, out);
 }
 
 /// Ensures and gathers the texels of `taps`. All lanes are read: inactive ones repeat an active one (fill_inactive).
 template <StorageClass storage, int W>
-HWY_NOINLINE void fetch(Texture& texture, const std::array<float, 4>& border, bool cube, const TapWave<W>& taps,
-                        TexelWave<W * W>& out) {
+HWY_NOINLINE void fetch(Texture& texture, const std::array<float, 4>& border, bool cube, const TapWave<W>& taps, TexelWave<W * W>& out) {
     WaveInt index[W * W];
     tap_indices<storage>(texture.levels(), taps, index);
-    WaveMask corner[W * W] = {};
-    if (taps.leaves) {
-        if (!cube) return fetch_with_border<storage>(texture, border, taps, index, out);
-        if constexpr (W == 2) fold_cube_taps<storage>(texture.levels(), taps, index, corner);
-    }
+    if (taps.leaves) return fetch_beyond_edges<storage>(texture, border, cube, taps, index, out);
     ensure(texture, *taps.level, index);
     gather<storage>(texture, index, out);
-    if constexpr (W == 2) {
-        if (taps.leaves) mean_at_corners<storage>(corner, out);
-    }
 }
 
 }  // namespace HWY_NAMESPACE

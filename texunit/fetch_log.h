@@ -1,4 +1,5 @@
-// What lookups asked for. Counting is a policy: the wave code is compiled once for each policy, and what one does not ask for costs nothing.
+// What lookups asked for. Counting is a policy: the wave code is compiled once for each policy, and what one does not ask for costs
+// nothing.
 //
 //   NoFetchCount    nothing: the plain path
 //   FetchCounter    sums, per texture and per pixel
@@ -16,9 +17,9 @@ class Texture;
 /// Demanded counts: what material and sampler ask for, independent of skips, threads and tile size. Taps of weight 0 are not asked for; a
 /// tap that takes the border colour reads no texel and is not counted; a tap beyond the corner of a cube map is three.
 struct FetchCounts {
-    uint64_t lookups = 0;            ///< one map asked at one shading point
-    uint64_t taps = 0;               ///< taps weighed
-    uint64_t texels_requested = 0;   ///< texel reads, with repeats
+    uint64_t lookups = 0;           ///< one map asked at one shading point
+    uint64_t taps = 0;              ///< taps weighed
+    uint64_t texels_requested = 0;  ///< texel reads, with repeats
 
     FetchCounts& operator+=(const FetchCounts& other);
     bool operator==(const FetchCounts&) const = default;
@@ -26,13 +27,13 @@ struct FetchCounts {
 
 /// One tap of a wave. Every pointer has 32 lanes, of which only those of `lanes` mean anything.
 struct WaveTap {
-    WaveMask lanes;            ///< lanes that weigh it
-    WaveMask border;           ///< those of them that take the border colour and read nothing
+    WaveMask lanes;   ///< lanes that weigh it
+    WaveMask border;  ///< those of them that take the border colour and read nothing
     const WaveInt* level;
-    const WaveInt* slice;      ///< array layer, 6*cube + face, or depth slice; null: slice 0
-    const WaveInt* x;          ///< texel of that level and slice as decoded,
-    const WaveInt* y;          ///< (texunit/level_table.h has its index)
-    const WaveFloat* weight;   ///< the product over the axes, never 0
+    const WaveInt* slice;     ///< array layer, 6*cube + face, or depth slice; null: slice 0
+    const WaveInt* x;         ///< texel of that level and slice as decoded,
+    const WaveInt* y;         ///< (texunit/level_table.h has its index)
+    const WaveFloat* weight;  ///< the product over the axes, never 0
 };
 
 /// Hears of every tap of every lookup. A lane's taps come by probe, finer level before coarser, slice, row and column. Its share of the
@@ -59,14 +60,14 @@ struct NoFetchCount {
 struct FetchCounter {
     static constexpr bool kCounts = true;
     static constexpr bool kRecords = false;
-    FetchCounts* texture = nullptr;      ///< of the texture looked up now
-    Wave<uint32_t>* pixel = nullptr;     ///< texels requested by each lane's pixel, added to; null where nobody asks
+    FetchCounts* texture = nullptr;   ///< of the texture looked up now
+    Wave<uint32_t>* pixel = nullptr;  ///< texels requested by each lane's pixel, added to; null where nobody asks
 };
 
 /// A FetchCounter that also tells a sink.
 struct FetchRecorder : FetchCounter {
     static constexpr bool kRecords = true;
-    TapSink* sink = nullptr;   ///< never null
+    TapSink* sink = nullptr;  ///< never null
 };
 
 }  // namespace rawtexel::texunit

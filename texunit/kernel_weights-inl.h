@@ -50,15 +50,15 @@ HWY_INLINE V exp_negative(V x) {
     return hn::Mul(polynomial(series, r), power);
 }
 
-/// The mass of the normal distribution, cut at 4 sigma and renormalised, between its mean and t*sqrt(2)*sigma, t >= 0: erf(t)/(2*erf(sqrt(8)))
-/// and 1/2 from t = sqrt(8) on. Absolute error below 2^-24. Chebyshev interpolants of that function over [0, 1], divided by t and in t^2, and
-/// over [1, sqrt(8)], computed in double precision.
+/// The mass of the normal distribution, cut at 4 sigma and renormalised, between its mean and t*sqrt(2)*sigma, t >= 0:
+/// erf(t)/(2*erf(sqrt(8))) and 1/2 from t = sqrt(8) on. Absolute error below 2^-24. Chebyshev interpolants of that function over [0, 1],
+/// divided by t and in t^2, and over [1, sqrt(8)], computed in double precision.
 template <class V>
 HWY_INLINE V normal_half_mass(V t) {
     const hn::DFromV<V> d;
     const float inner[] = {0.564225322f, -0.188075048f, 0.0564215612f, -0.013428015f, 0.00259482033f, -0.000400968148f, 3.94149822e-05f};
     constexpr float kMiddle = 0x1.ea09e6p+0f;
-    const float outer[] = {0.00336216558f,  -0.0144579898f, 0.0276752822f,   -0.0304960717f,  0.0199680694f,  -0.00615501888f,
+    const float outer[] = {0.00336216558f,  -0.0144579898f, 0.0276752822f,    -0.0304960717f,   0.0199680694f,  -0.00615501888f,
                            -0.00142238754f, 0.00228298214f, -0.000732886796f, -0.000179221185f, 0.000142815503f};
     const V half = hn::Set(d, 0.5f);
     const V bounded = hn::Min(t, hn::Set(d, 2.82842708f));
@@ -91,16 +91,14 @@ HWY_INLINE V quadratic_weights(V fraction, V (&weight)[3]) {
     return hn::IfThenElseZero(hn::Not(upper), hn::Set(d, -1.0f));
 }
 
-/// Mitchell and Netravali 1988, equation 8: within 1 of the centre a cubic in the distance x, beyond a cubic in s = 2 - x, which has a double
-/// root at s = 0. B-spline: B = 1, C = 0. Catmull-Rom: B = 0, C = 1/2.
+/// Mitchell and Netravali 1988, equation 8: within 1 of the centre a cubic in the distance x, beyond a cubic in s = 2 - x, which has a
+/// double root at s = 0. B-spline: B = 1, C = 0. Catmull-Rom: B = 0, C = 1/2.
 template <class V>
 HWY_INLINE V mitchell_weights(double b, double c, V fraction, V (&weight)[4]) {
     const hn::DFromV<V> d;
     const V rest = hn::Sub(hn::Set(d, 1.0f), fraction);
     const float inner[] = {float(1 - b / 3), float(2 * b + c - 3), float(2 - 1.5 * b - c)};
-    const auto within = [&](V x) HWY_ATTR {
-        return horner(horner(hn::Set(d, inner[2]), x, inner[1]), hn::Mul(x, x), inner[0]);
-    };
+    const auto within = [&](V x) HWY_ATTR { return horner(horner(hn::Set(d, inner[2]), x, inner[1]), hn::Mul(x, x), inner[0]); };
     const auto beyond = [&](V s) HWY_ATTR { return hn::Mul(hn::Mul(s, s), horner(hn::Set(d, float(b / 6 + c)), s, float(-c))); };
     weight[0] = beyond(rest);
     weight[1] = within(fraction);
@@ -135,13 +133,10 @@ HWY_INLINE V lanczos_weights(V fraction, V (&weight)[2 * a]) {
 
     // sin(pi*g/a)/g and cos(pi*g/a) by their series, up to an angle of pi/4.
     constexpr double p = std::numbers::pi / a, q = p * p;
-    const float sine[] = {float(p), float(-p * q / 6), float(p * q * q / 120), float(-p * q * q * q / 5040), float(p * q * q * q * q / 362880)};
-    const float cosine[] = {1,
-                            float(-q / 2),
-                            float(q * q / 24),
-                            float(-q * q * q / 720),
-                            float(q * q * q * q / 40320),
-                            float(-q * q * q * q * q / 3628800)};
+    const float sine[] = {float(p), float(-p * q / 6), float(p * q * q / 120), float(-p * q * q * q / 5040),
+                          float(p * q * q * q * q / 362880)};
+    const float cosine[] = {
+        1, float(-q / 2), float(q * q / 24), float(-q * q * q / 720), float(q * q * q * q / 40320), float(-q * q * q * q * q / 3628800)};
     const V g2 = hn::Mul(g, g);
     const V cotangent = hn::Div(polynomial(cosine, g2), polynomial(sine, g2));
 
@@ -171,13 +166,12 @@ HWY_INLINE V gaussian_weights(float sigma, int taps, V remainder, float* weights
     // The first texel that the interval meets is floor(remainder - 4*sigma), taken apart so that nothing rounds.
     const float reach = 4 * sigma, whole = std::floor(reach), part = reach - whole;
     const V one = hn::Set(d, 1.0f);
-    const V below = hn::Add(hn::IfThenElseZero(remainder < hn::Set(d, part), one),
-                            hn::IfThenElseZero(remainder < hn::Set(d, part - 1), one));
+    const V below =
+        hn::Add(hn::IfThenElseZero(remainder < hn::Set(d, part), one), hn::IfThenElseZero(remainder < hn::Set(d, part - 1), one));
     const V first = hn::Neg(hn::Add(hn::Set(d, whole), below));
     const V scale = hn::Set(d, float(1 / (double(sigma) * std::numbers::sqrt2)));
-    const auto mass_before = [&](float tap) HWY_ATTR {
-        return normal_mass(hn::Mul(hn::Sub(hn::Add(first, hn::Set(d, tap)), remainder), scale));
-    };
+    const auto mass_before = [&](float tap)
+                                 HWY_ATTR { return normal_mass(hn::Mul(hn::Sub(hn::Add(first, hn::Set(d, tap)), remainder), scale)); };
     V before = mass_before(0);
     for (int k = 0; k < taps; ++k) {
         const V after = mass_before(float(k + 1));

@@ -20,8 +20,13 @@ class LaneRecorder final : public TapSink {
     void tap(const WaveTap& tap) override {
         if ((tap.lanes & 1) == 0) return;
         const bool border = (tap.border & 1) != 0;
-        TracedTap traced{(*tap.level)[0], tap.slice == nullptr ? 0 : (*tap.slice)[0], (*tap.x)[0], (*tap.y)[0],
-                         double((*tap.weight)[0]) * level_ * probe_, border, {}};
+        TracedTap traced{(*tap.level)[0],
+                         tap.slice == nullptr ? 0 : (*tap.slice)[0],
+                         (*tap.x)[0],
+                         (*tap.y)[0],
+                         double((*tap.weight)[0]) * level_ * probe_,
+                         border,
+                         {}};
         (coarser_ ? coarser_taps_ : taps_).push_back(traced);
     }
 

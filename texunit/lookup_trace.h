@@ -11,18 +11,18 @@ namespace rawtexel::texunit {
 /// A texel that a lookup weighs.
 struct TracedTap {
     int level = 0;
-    int slice = 0;                    ///< array layer, 6*cube + face, or depth slice
-    int x = 0, y = 0;                 ///< texel of that level and slice; without meaning for a border
-    double weight = 0;                ///< product over axes, level and probe; never 0
-    bool border = false;              ///< takes the border colour instead of a texel
-    std::array<float, 4> value{};     ///< linear RGBA
+    int slice = 0;                 ///< array layer, 6*cube + face, or depth slice
+    int x = 0, y = 0;              ///< texel of that level and slice; without meaning for a border
+    double weight = 0;             ///< product over axes, level and probe; never 0
+    bool border = false;           ///< takes the border colour instead of a texel
+    std::array<float, 4> value{};  ///< linear RGBA
 };
 
 struct LookupTrace {
-    float lod = 0;                    ///< lambda clamped to the levels there are
-    float anisotropy = 1;             ///< ratio of the footprint's axes, at most the sampler's probes
-    std::vector<TracedTap> taps;      ///< the finer level before the coarser; in a level by probe, slice, row and column
-    std::array<float, 4> result{};    ///< linear RGBA: bit-equal to what the wave functions of texunit/sample.h return
+    float lod = 0;                  ///< lambda clamped to the levels there are
+    float anisotropy = 1;           ///< ratio of the footprint's axes, at most the sampler's probes
+    std::vector<TracedTap> taps;    ///< the finer level before the coarser; in a level by probe, slice, row and column
+    std::array<float, 4> result{};  ///< linear RGBA: bit-equal to what the wave functions of texunit/sample.h return
 };
 
 /// A lookup of one lane.

@@ -48,6 +48,12 @@ HWY_INLINE void with_policy(const LookupExtras& extras, const Lookup& lookup) {
     }
 }
 
+/// The common case, without a detour over what might be asked for.
+void sample_plain(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, WaveColor& out) {
+    NoFetchCount nothing;
+    sample_lanes(texture, sampler, at, mask, nothing, out, nullptr, nullptr);
+}
+
 void sample_flat(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, WaveColor& out,
                  const LookupExtras& extras) {
     with_policy(extras, [&](auto& count) HWY_ATTR { sample_lanes(texture, sampler, at, mask, count, out, extras.lod, extras.layer); });
@@ -70,6 +76,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rawtexel::texunit {
 
+HWY_EXPORT(sample_plain);
 HWY_EXPORT(sample_flat);
 HWY_EXPORT(sample_volume);
 HWY_EXPORT(sample_cube);
@@ -82,7 +89,9 @@ void sample_wave(Texture& texture, const SamplerState& sampler, const WaveCoordi
 
 void sample_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, WaveColor& out,
                  FetchCounts* counts) {
-    sample_wave(texture, sampler, at, mask, out, LookupExtras{.counts = counts});
+    if (counts != nullptr) return sample_wave(texture, sampler, at, mask, out, LookupExtras{.counts = counts});
+    assert(texture.shape().depth == 1);
+    HWY_DYNAMIC_DISPATCH(sample_plain)(texture, sampler, at, mask, out);
 }
 
 void sample_volume_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates3& at, WaveMask mask, WaveColor& out,

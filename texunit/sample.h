@@ -12,21 +12,22 @@ namespace rawtexel::texunit {
 /// means the coarsest level.
 struct WaveCoordinates {
     WaveFloat u, v;
-    WaveFloat dudx, dvdx, dudy, dvdy;   ///< change of u, v over one pixel to the right, one pixel down
+    WaveFloat dudx, dvdx, dudy, dvdy;  ///< change of u, v over one pixel to the right, one pixel down
 };
 
 /// The same with three components: coordinates u, v, w of a volume, or a direction of any length into a cube map.
 struct WaveCoordinates3 {
     WaveFloat position[3];
-    WaveFloat dx[3], dy[3];   ///< change over one pixel to the right, one pixel down
+    WaveFloat dx[3], dy[3];  ///< change over one pixel to the right, one pixel down
 };
 
 /// What a lookup may be asked for besides its colour.
 struct LookupExtras {
-    const WaveFloat* layer = nullptr;   ///< of an array: rounded to the nearest layer, ties to even, and kept within the array. Null: the first
-    FetchCounts* counts = nullptr;      ///< added to
-    TapSink* sink = nullptr;            ///< told of every tap
-    WaveFloat* lod = nullptr;           ///< gets lambda clamped to the levels there are
+    const WaveFloat* layer =
+        nullptr;                    ///< of an array: rounded to the nearest layer, ties to even, and kept within the array. Null: the first
+    FetchCounts* counts = nullptr;  ///< added to
+    TapSink* sink = nullptr;        ///< told of every tap
+    WaveFloat* lod = nullptr;       ///< gets lambda clamped to the levels there are
 };
 
 /// Samples 2-D `texture`, or a layer of an array, at the lanes of `mask`; linear RGBA into `out`, whose other lanes are unspecified but
@@ -46,9 +47,10 @@ void sample_wave(Texture& texture, const SamplerState& sampler, const WaveCoordi
 void sample_volume_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates3& at, WaveMask mask, WaveColor& out,
                         const LookupExtras& extras = {});
 
-/// The same for a cube map, or with `layer` for one cube of an array. Faces in the order and orientation of D3D and Vulkan; where components
-/// tie Z beats Y beats X; derivatives by the quotient rule. Wraps are not looked at: beyond an edge comes the neighbouring face, straight on
-/// across as many faces as a kernel reaches, and a tap beyond a corner is the mean of the three texels that meet there. Isotropic.
+/// The same for a cube map, or with `layer` for one cube of an array. Faces in the order and orientation of D3D and Vulkan; where
+/// components tie Z beats Y beats X; derivatives by the quotient rule. Wraps are not looked at: beyond an edge comes the neighbouring face,
+/// straight on across as many faces as a kernel reaches, and a tap beyond a corner is the mean of the three texels that meet there.
+/// Isotropic.
 void sample_cube_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates3& directions, WaveMask mask, WaveColor& out,
                       const LookupExtras& extras = {});
 

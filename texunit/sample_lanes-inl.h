@@ -51,6 +51,23 @@ HWY_INLINE void answer_empty_mask(WaveColor& out, WaveFloat* lod) {
     if (lod != nullptr) *lod = {};
 }
 
+/// Several probes, or an ellipse, instead of one isotropic lookup.
+template <class Count>
+HWY_NOINLINE void sample_anisotropic(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, const WavePosition& position,
+                                     WaveMask mask, Count& count, WaveColor& out, WaveFloat* lod) {
+    if (sampler.ellipse > 0) {
+        WaveFloat level;
+        return sample_ellipses(texture, sampler, at, position.slice, mask, count, out, lod == nullptr ? level : *lod);
+    }
+    LevelChoice choice;
+    ProbeChoice probes;
+    select_footprint(texture.levels(), sampler, at, choice, probes);
+    if (lod != nullptr) *lod = choice.lod;
+    const auto sample_at = [&](const WavePosition& place, WaveMask active, WaveColor& colour)
+                               HWY_ATTR { sample_levels(texture, sampler, place, choice, active, count, colour); };
+    sample_probes(sampler, probes, position, mask, count, sample_at, out);
+}
+
 template <class Count>
 HWY_NOINLINE void sample_lanes(Texture& texture, const SamplerState& sampler, const WaveCoordinates& coordinates, WaveMask mask,
                                Count& count, WaveColor& out, WaveFloat* lod, const WaveFloat* layer) {
@@ -66,22 +83,12 @@ HWY_NOINLINE void sample_lanes(Texture& texture, const SamplerState& sampler, co
         position.slice = &slice;
     }
     count_lookups(texture, mask, count);
-    if (sampler.ellipse > 0) {
-        WaveFloat level;
-        return sample_ellipses(texture, sampler, at, position.slice, mask, count, out, lod == nullptr ? level : *lod);
+    if (sampler.probes != 1 || sampler.ellipse > 0) {
+        return sample_anisotropic(texture, sampler, at, position, mask, count, out, lod);
     }
     LevelChoice choice;
-    if (sampler.probes == 1) {
-        choose_levels(texture, sampler, at, choice, lod);
-        return sample_levels(texture, sampler, position, choice, mask, count, out);
-    }
-    ProbeChoice probes;
-    select_footprint(texture.levels(), sampler, at, choice, probes);
-    if (lod != nullptr) *lod = choice.lod;
-    const auto sample_at = [&](const WavePosition& place, WaveMask active, WaveColor& colour) HWY_ATTR {
-        sample_levels(texture, sampler, place, choice, active, count, colour);
-    };
-    sample_probes(sampler, probes, position, mask, count, sample_at, out);
+    choose_levels(texture, sampler, at, choice, lod);
+    sample_levels(texture, sampler, position, choice, mask, count, out);
 }
 
 HWY_INLINE void fill_inactive(const WaveCoordinates3& at, WaveMask mask, WaveCoordinates3& filled) {
@@ -165,8 +172,7 @@ HWY_NOINLINE void sample_cube_lanes(Texture& texture, const SamplerState& sample
     LevelChoice choice;
     choose_levels(texture, state, cube.face, choice, lod);
     count_lookups(texture, mask, count);
-    const WavePosition position{
-        .u = &cube.face.u, .v = &cube.face.v, .slice = &cube.slice, .u_rest = &cube.u_rest, .v_rest = &cube.v_rest};
+    const WavePosition position{.u = &cube.face.u, .v = &cube.face.v, .slice = &cube.slice, .u_rest = &cube.u_rest, .v_rest = &cube.v_rest};
     sample_levels(texture, state, position, choice, mask, count, out);
 }
 

@@ -60,7 +60,7 @@ HWY_NOINLINE void count_narrow_taps(const LevelTable& table, const TapWave<W>& t
     WaveFloat weight_x[W], weight_y[W];
     narrow_weights(taps.fraction_x, weight_x);
     narrow_weights(taps.fraction_y, weight_y);
-    const auto axis = [&](const WaveInt (&texel)[W], const WaveFloat (&weight)[W], const WaveMask (&outside)[W]) {
+    const auto axis = [&](const WaveInt(&texel)[W], const WaveFloat(&weight)[W], const WaveMask(&outside)[W]) {
         return AxisView{W, texel, weight, taps.leaves ? outside : nullptr};
     };
     count_grid({axis(taps.x, weight_x, taps.outside_x), axis(taps.y, weight_y, taps.outside_y), taps.level, taps.slice, scale, 0,
@@ -70,7 +70,8 @@ HWY_NOINLINE void count_narrow_taps(const LevelTable& table, const TapWave<W>& t
 
 /// Counts and records the taps of the lanes of `mask`. `scale` is the weight of a slice of a volume, else null.
 template <int W, class Count>
-HWY_INLINE void count_taps(const LevelTable& table, const TapWave<W>& taps, bool cube, const WaveFloat* scale, WaveMask mask, Count& count) {
+HWY_INLINE void count_taps(const LevelTable& table, const TapWave<W>& taps, bool cube, const WaveFloat* scale, WaveMask mask,
+                           Count& count) {
     if constexpr (Count::kCounts) count_narrow_taps(table, taps, cube, scale, mask, count);
 }
 
@@ -94,7 +95,7 @@ HWY_NOINLINE void sample_volume_level(Texture& texture, const SamplerState& samp
     WaveInt slice[W];
     WaveFloat fraction, weight[W];
     WaveMask outside[W] = {};
-    select_axis(edge_rule(sampler.wrap_r), {at.w, nullptr, &table.depth, sampler.precision}, level, nearest, slice, fraction, outside);
+    select_axis(edge_rule(sampler.wrap_r), *at.w, table.depth, level, nearest, slice, fraction, {sampler.precision, nullptr}, outside);
     narrow_weights(fraction, weight);
 
     TapWave<W> taps;
@@ -133,10 +134,10 @@ HWY_NOINLINE void sample_wide_level(Texture& texture, const SamplerState& sample
     taps.slice = at.slice;
     taps.cube = at.cube();
     taps.volume = at.w != nullptr;
-    select_wide_axis(kernel, rule_of(at, sampler.wrap_s), {at.u, at.u_rest, &table.width, sampler.precision}, level, taps.x);
-    select_wide_axis(kernel, rule_of(at, sampler.wrap_t), {at.v, at.v_rest, &table.height, sampler.precision}, level, taps.y);
+    select_wide_axis(kernel, rule_of(at, sampler.wrap_s), *at.u, table.width, level, {sampler.precision, at.u_rest}, taps.x);
+    select_wide_axis(kernel, rule_of(at, sampler.wrap_t), *at.v, table.height, level, {sampler.precision, at.v_rest}, taps.y);
     if (taps.volume) {
-        select_wide_axis(kernel, edge_rule(sampler.wrap_r), {at.w, nullptr, &table.depth, sampler.precision}, level, taps.z);
+        select_wide_axis(kernel, edge_rule(sampler.wrap_r), *at.w, table.depth, level, {sampler.precision, nullptr}, taps.z);
     }
     if constexpr (Count::kCounts) {
         TapGrid grid{view(taps.x), view(taps.y), &level, at.slice, nullptr, 0, taps.cube ? table.width.data() : nullptr};
@@ -153,7 +154,8 @@ HWY_NOINLINE void sample_wide_level(Texture& texture, const SamplerState& sample
 
 /// Both levels of a choice, each by `sample_level(level, lanes that count, colour)`, mixed.
 template <StorageClass storage, class Count, class SampleLevel>
-HWY_INLINE void mix_sampled_levels(const LevelChoice& choice, WaveMask mask, Count& count, WaveColor& out, const SampleLevel& sample_level) {
+HWY_INLINE void mix_sampled_levels(const LevelChoice& choice, WaveMask mask, Count& count, WaveColor& out,
+                                   const SampleLevel& sample_level) {
     begin_level(choice.fraction, false, count);
     sample_level(choice.finer, mask, out);
     if (!choice.mixes) return;
@@ -172,10 +174,11 @@ HWY_INLINE void mix_sampled_levels(const LevelChoice& choice, WaveMask mask, Cou
 template <StorageClass storage, int W, class Count>
 HWY_NOINLINE void sample_narrow(Texture& texture, const SamplerState& sampler, const WavePosition& at, const LevelChoice& choice,
                                 WaveMask nearest, WaveMask mask, Count& count, WaveColor& out) {
-    mix_sampled_levels<storage>(choice, mask, count, out, [&](const WaveInt& level, WaveMask counted, WaveColor& colour) HWY_ATTR {
-        if (at.w != nullptr) return sample_volume_level<storage, W>(texture, sampler, at, level, nearest, counted, count, colour);
-        sample_flat_level<storage, W>(texture, sampler, at, level, nearest, counted, count, colour);
-    });
+    mix_sampled_levels<storage>(
+        choice, mask, count, out, [&](const WaveInt& level, WaveMask counted, WaveColor& colour) HWY_ATTR __attribute__((always_inline)) {
+            if (at.w != nullptr) return sample_volume_level<storage, W>(texture, sampler, at, level, nearest, counted, count, colour);
+            sample_flat_level<storage, W>(texture, sampler, at, level, nearest, counted, count, colour);
+        });
 }
 
 template <StorageClass storage, class Count>

@@ -6,6 +6,9 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
+#include <type_traits>
+
 // Included once per instruction set (highway's guard for -inl.h files).
 #if defined(RAWTEXEL_TEXUNIT_SELECT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RAWTEXEL_TEXUNIT_SELECT_INL_H_
@@ -44,9 +47,9 @@ struct TapWave {
     const WaveInt* level;
     const WaveInt* slice;  ///< null: slice 0
     WaveInt x[W], y[W];
-    WaveFloat fraction_x, fraction_y;      ///< [0, 1), W = 2 only
-    WaveMask outside_x[W], outside_y[W];   ///< lanes whose index is beyond an edge of a border or a cube map; unset unless `leaves`
-    bool leaves = false;                   ///< some bit of those is set
+    WaveFloat fraction_x, fraction_y;     ///< [0, 1), W = 2 only
+    WaveMask outside_x[W], outside_y[W];  ///< lanes whose index is beyond an edge of a border or a cube map; unset unless `leaves`
+    bool leaves = false;                  ///< some bit of those is set
 };
 
 /// Coordinates are limited to this many widths of the texture on either side: farther off even the widest kernel reads the edge alone.
@@ -75,26 +78,29 @@ HWY_INLINE void scale_coordinate(V reduced, V extent, V& integer, V& remainder) 
     remainder = hn::Add(hn::Sub(high, integer), low);
 }
 
-/// Coordinates of one axis for the wave: where and how exactly they are read.
-struct AxisCoordinates {
-    const WaveFloat* coordinate;
-    const WaveFloat* rest;                     ///< what rounding took from `coordinate`, or null
-    const std::array<int32_t, 16>* extents;    ///< of the axis, by level
+/// How the coordinates of an axis are read.
+struct CoordinateReading {
     Precision precision;
+    const WaveFloat* rest;  ///< what rounding took from the coordinates, of cube maps only
 };
 
-/// The texel-space coordinates of lanes i .. in a level `extent` texels wide. Precision::Gpu keeps 8 fractional bits (D3D11.3 7.18.8).
+/// To the nearest 1/256: 8 fractional bits (D3D11.3 7.18.8).
+template <class V>
+HWY_INLINE V snap_fraction(V remainder) {
+    const hn::DFromV<V> d;
+    return hn::Mul(round_small(hn::Mul(remainder, hn::Set(d, 256.0f))), hn::Set(d, 1.0f / 256.0f));
+}
+
+/// The texel-space coordinates of lanes i .. in a level `extent` texels wide.
 template <EdgeRule rule>
-HWY_INLINE void locate(const AxisCoordinates& axis, hn::Vec<FloatTag> extent, size_t i, hn::Vec<FloatTag>& integer,
-                       hn::Vec<FloatTag>& remainder) {
+HWY_INLINE void locate(const WaveFloat& coordinate, const CoordinateReading& reading, hn::Vec<FloatTag> extent, size_t i,
+                       hn::Vec<FloatTag>& integer, hn::Vec<FloatTag>& remainder) {
     const FloatTag d;
-    scale_coordinate(reduce_range<rule>(hn::Load(d, axis.coordinate->lane + i)), extent, integer, remainder);
+    scale_coordinate(reduce_range<rule>(hn::Load(d, coordinate.lane + i)), extent, integer, remainder);
     if constexpr (rule == EdgeRule::CubeEdge) {
-        remainder = hn::Add(remainder, hn::Mul(hn::Load(d, axis.rest->lane + i), extent));
+        remainder = hn::Add(remainder, hn::Mul(hn::Load(d, reading.rest->lane + i), extent));
     }
-    if (axis.precision == Precision::Gpu) {
-        remainder = hn::Mul(round_small(hn::Mul(remainder, hn::Set(d, 256.0f))), hn::Set(d, 1.0f / 256.0f));
-    }
+    if (HWY_UNLIKELY(reading.precision == Precision::Gpu)) remainder = snap_fraction(remainder);
 }
 
 /// floor(coordinate), the texel that holds it, relative to `integer`.
@@ -172,16 +178,17 @@ HWY_INLINE hn::Mask<hn::DFromV<V>> beyond_edges(V index, V extent) {
 /// Taps along one axis. `nearest`: lanes that take one texel, embedded in a wider kernel with fraction 0. `outside` gets the lanes beyond
 /// the edges where the rule can leave.
 template <EdgeRule rule, int W>
-HWY_NOINLINE void select_axis_as(const AxisCoordinates& axis, const WaveInt& level, WaveMask nearest, WaveInt (&index)[W],
-                                 WaveFloat& fraction, WaveMask (&outside)[W]) {
+HWY_NOINLINE void select_axis_as(const WaveFloat& coordinate, const std::array<int32_t, 16>& extents, const WaveInt& level,
+                                 WaveMask nearest, WaveInt (&index)[W], WaveFloat& fraction, const CoordinateReading& reading,
+                                 WaveMask (&outside)[W]) {
     const FloatTag d;
     const IntTag di;
     const auto zero = hn::Zero(d);
     if constexpr (can_leave(rule)) std::fill(outside, outside + W, WaveMask{0});
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto extent = look_up_level(di, *axis.extents, hn::Load(di, level.lane + i));
+        const auto extent = look_up_level(di, extents, hn::Load(di, level.lane + i));
         hn::Vec<FloatTag> integer, remainder;
-        locate<rule>(axis, hn::ConvertTo(d, extent), i, integer, remainder);
+        locate<rule>(coordinate, reading, hn::ConvertTo(d, extent), i, integer, remainder);
 
         auto first = nearest_texel(remainder);
         if constexpr (W == 2) {
@@ -215,26 +222,30 @@ HWY_NOINLINE void select_axis_as(const AxisCoordinates& axis, const WaveInt& lev
     }
 }
 
+/// Calls `act` with the rule as a constant of the type std::integral_constant.
+template <class Act>
+HWY_INLINE auto with_rule(EdgeRule rule, const Act& act) {
+    switch (rule) {
+        case EdgeRule::MirroredRepeat: return act(std::integral_constant<EdgeRule, EdgeRule::MirroredRepeat>());
+        case EdgeRule::ClampToEdge: return act(std::integral_constant<EdgeRule, EdgeRule::ClampToEdge>());
+        case EdgeRule::ClampToBorder: return act(std::integral_constant<EdgeRule, EdgeRule::ClampToBorder>());
+        case EdgeRule::MirrorOnce: return act(std::integral_constant<EdgeRule, EdgeRule::MirrorOnce>());
+        case EdgeRule::CubeEdge: return act(std::integral_constant<EdgeRule, EdgeRule::CubeEdge>());
+        default: return act(std::integral_constant<EdgeRule, EdgeRule::Repeat>());
+    }
+}
+
 /// Returns whether some lane's tap is beyond an edge; `outside` is set only then.
 template <int W>
-HWY_INLINE bool select_axis(EdgeRule rule, const AxisCoordinates& axis, const WaveInt& level, WaveMask nearest, WaveInt (&index)[W],
-                            WaveFloat& fraction, WaveMask (&outside)[W]) {
-    const auto any = [&] {
-        WaveMask lanes = 0;
-        for (const WaveMask mask : outside) lanes |= mask;
-        return lanes != 0;
-    };
-    switch (rule) {
-        case EdgeRule::Repeat: select_axis_as<EdgeRule::Repeat>(axis, level, nearest, index, fraction, outside); return false;
-        case EdgeRule::MirroredRepeat:
-            select_axis_as<EdgeRule::MirroredRepeat>(axis, level, nearest, index, fraction, outside);
-            return false;
-        case EdgeRule::ClampToEdge: select_axis_as<EdgeRule::ClampToEdge>(axis, level, nearest, index, fraction, outside); return false;
-        case EdgeRule::MirrorOnce: select_axis_as<EdgeRule::MirrorOnce>(axis, level, nearest, index, fraction, outside); return false;
-        case EdgeRule::ClampToBorder: select_axis_as<EdgeRule::ClampToBorder>(axis, level, nearest, index, fraction, outside); return any();
-        case EdgeRule::CubeEdge: select_axis_as<EdgeRule::CubeEdge>(axis, level, nearest, index, fraction, outside); return any();
-    }
-    return false;
+HWY_INLINE bool select_axis(EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents, const WaveInt& level,
+                            WaveMask nearest, WaveInt (&index)[W], WaveFloat& fraction, const CoordinateReading& reading,
+                            WaveMask (&outside)[W]) {
+    return with_rule(rule, [&](auto constant) HWY_ATTR {
+        constexpr EdgeRule kRule = decltype(constant)::value;
+        select_axis_as<kRule>(coordinate, extents, level, nearest, index, fraction, reading, outside);
+        if constexpr (!can_leave(kRule)) return false;
+        return std::any_of(outside, outside + W, [](WaveMask lanes) { return lanes != 0; });
+    });
 }
 
 /// The rules of a texture's two axes at `at`.
@@ -246,10 +257,10 @@ HWY_INLINE void select_taps(const LevelTable& table, const SamplerState& sampler
                             WaveMask nearest, TapWave<W>& taps) {
     taps.level = &level;
     taps.slice = at.slice;
-    const bool leaves_x = select_axis(rule_of(at, sampler.wrap_s), {at.u, at.u_rest, &table.width, sampler.precision}, level, nearest,
-                                      taps.x, taps.fraction_x, taps.outside_x);
-    const bool leaves_y = select_axis(rule_of(at, sampler.wrap_t), {at.v, at.v_rest, &table.height, sampler.precision}, level, nearest,
-                                      taps.y, taps.fraction_y, taps.outside_y);
+    const bool leaves_x = select_axis(rule_of(at, sampler.wrap_s), *at.u, table.width, level, nearest, taps.x, taps.fraction_x,
+                                      {sampler.precision, at.u_rest}, taps.outside_x);
+    const bool leaves_y = select_axis(rule_of(at, sampler.wrap_t), *at.v, table.height, level, nearest, taps.y, taps.fraction_y,
+                                      {sampler.precision, at.v_rest}, taps.outside_y);
     taps.leaves = leaves_x || leaves_y;
     if (!taps.leaves) return;
     if (!leaves_x) std::fill(taps.outside_x, taps.outside_x + W, WaveMask{0});

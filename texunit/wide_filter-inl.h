@@ -20,9 +20,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// The taps of one level: columns, rows and, of volumes, slices.
 struct WideTaps {
     const WaveInt* level;
-    const WaveInt* slice;   ///< of everything but volumes; null: slice 0
+    const WaveInt* slice;  ///< of everything but volumes; null: slice 0
     bool cube, volume;
-    AxisTaps x, y, z;       ///< z of volumes only
+    AxisTaps x, y, z;  ///< z of volumes only
 
     bool leaves() const { return x.leaves || y.leaves || (volume && z.leaves); }
 };
@@ -137,12 +137,19 @@ HWY_NOINLINE void ensure_wide_cube(Texture& texture, const WideTaps& taps) {
     }
 }
 
-/// Reads texels as the numbers they are stored as: fields of the packed classes are scaled only once they are summed.
-template <StorageClass storage>
+/// Whether all four channels are stored as unsigned fields that mean their quotients.
+HWY_INLINE bool is_plain(const TexelLayout& layout) {
+    bool plain = !layout.is_signed;
+    for (int c = 0; c < 4; ++c) plain = plain && layout.mask[c] != 0 && layout.table[c] == nullptr;
+    return plain;
+}
+
+/// Reads texels as the numbers they are stored as: fields of the packed classes are scaled only once they are summed. `plain` packed
+/// layouts are read without asking about each channel.
+template <StorageClass storage, bool plain>
 class TexelReader {
   public:
     using V = hn::Vec<FloatTag>;
-    static constexpr bool kPacked = storage == StorageClass::Packed32 || storage == StorageClass::Packed64;
 
     explicit TexelReader(const Texture& texture) : layout_(texture.texel_layout()), texels_(texture.texels()) {}
 
@@ -177,7 +184,7 @@ class TexelReader {
     /// The value of a weighted sum of what was read.
     HWY_INLINE V value(int c, V sum) const {
         const FloatTag d;
-        if constexpr (!kPacked) return sum;
+        if constexpr (!is_packed(storage)) return sum;
         if (layout_.mask[c] == 0) return hn::Set(d, layout_.bias[c]);
         if (layout_.table[c] != nullptr) return sum;
         return hn::Add(hn::Mul(sum, hn::Set(d, layout_.scale_hi[c])), hn::Mul(sum, hn::Set(d, layout_.scale_lo[c])));
@@ -190,8 +197,9 @@ class TexelReader {
         const IntTag di;
         const hn::RebindToUnsigned<IntTag> du;
         const uint32_t mask = layout_.mask[c];
-        if (mask == 0) return hn::Zero(d);
+        if (!plain && mask == 0) return hn::Zero(d);
         const auto bits = hn::BitCast(di, hn::And(hn::ShiftRightSame(word, shift), hn::Set(du, mask)));
+        if constexpr (plain) return hn::ConvertTo(d, bits);
         if (layout_.table[c] != nullptr) return hn::GatherIndex(d, layout_.table[c], bits);
         if (!layout_.is_signed) return hn::ConvertTo(d, bits);
         // Flipping the sign bit and subtracting it extends the sign. Two codes mean -1 (D3D11.3 3.2.3.4).
@@ -211,15 +219,15 @@ HWY_INLINE void add_weighed(V weight, const V (&number)[4], V (&sum)[4]) {
     const auto weighs = hn::Ne(weight, hn::Zero(d));
     for (int c = 0; c < 4; ++c) {
         V product = hn::Mul(weight, number[c]);
-        if constexpr (!TexelReader<storage>::kPacked) product = hn::IfThenElseZero(weighs, product);
+        if constexpr (!is_packed(storage)) product = hn::IfThenElseZero(weighs, product);
         sum[c] = hn::Add(sum[c], product);
     }
 }
 
 /// Reads tap (k, j) of a cube map where it may lie beyond an edge.
-template <StorageClass storage, class V>
-HWY_INLINE void read_cube_tap(const TexelReader<storage>& reader, const LevelTable& table, const WideTaps& taps, int k, int j, size_t i,
-                              V (&texel)[4]) {
+template <StorageClass storage, bool plain, class V>
+HWY_INLINE void read_cube_tap(const TexelReader<storage, plain>& reader, const LevelTable& table, const WideTaps& taps, int k, int j,
+                              size_t i, V (&texel)[4]) {
     const FloatTag d;
     const IntTag di;
     alignas(64) int32_t index[3][kWaveLanes];
@@ -237,11 +245,11 @@ HWY_INLINE void read_cube_tap(const TexelReader<storage>& reader, const LevelTab
 }
 
 /// Weighs all taps of all lanes.
-template <StorageClass storage>
-HWY_NOINLINE void sum_taps(const Texture& texture, const WideTaps& taps, const TapOffsets& offsets, WaveColor& out) {
+template <StorageClass storage, bool plain>
+HWY_NOINLINE void sum_taps_as(const Texture& texture, const WideTaps& taps, const TapOffsets& offsets, WaveColor& out) {
     const FloatTag d;
     using V = hn::Vec<FloatTag>;
-    const TexelReader<storage> reader(texture);
+    const TexelReader<storage, plain> reader(texture);
     const bool folds = taps.cube && taps.leaves();
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
         V sum[4] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
@@ -267,6 +275,14 @@ HWY_NOINLINE void sum_taps(const Texture& texture, const WideTaps& taps, const T
     }
 }
 
+template <StorageClass storage>
+HWY_INLINE void sum_taps(const Texture& texture, const WideTaps& taps, const TapOffsets& offsets, WaveColor& out) {
+    if constexpr (is_packed(storage)) {
+        if (is_plain(texture.texel_layout())) return sum_taps_as<storage, true>(texture, taps, offsets, out);
+    }
+    sum_taps_as<storage, false>(texture, taps, offsets, out);
+}
+
 /// What the border takes of a product of axes.
 HWY_INLINE void combine_border(const BorderShare& axis, BorderShare& all) {
     const FloatTag d;
@@ -278,10 +294,11 @@ HWY_INLINE void combine_border(const BorderShare& axis, BorderShare& all) {
     }
 }
 
-/// Adds the border's share to a sum over the texels. A channel that is not stored is constant, and so is its border.
-HWY_NOINLINE inline void add_border(const TexelLayout& layout, const std::array<float, 4>& border, const BorderShare& share, WaveColor& out) {
+/// Adds the border's share to a sum over the texels.
+HWY_NOINLINE inline void add_border(const TexelLayout& layout, const std::array<float, 4>& border, const BorderShare& share,
+                                    WaveColor& out) {
     const FloatTag d;
-    const bool packed = layout.storage == StorageClass::Packed32 || layout.storage == StorageClass::Packed64;
+    const bool packed = is_packed(layout.storage);
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
         const auto outside = hn::Load(d, share.outside.lane + i), inside = hn::Load(d, share.inside.lane + i);
         const auto nothing_inside = hn::Eq(inside, hn::Zero(d));

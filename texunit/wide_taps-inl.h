@@ -23,10 +23,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// is then one that it reads anyway.
 struct AxisTaps {
     int count = 0;
-    bool leaves = false;   ///< some bit of `outside` is set
-    WaveMask readable = kWaveFull;   ///< lanes that weigh a texel of the texture; only a border leaves some without
-    WaveMask outside[kMostAxisTaps];   ///< lanes that weigh this tap and find it beyond an edge of a border or a cube map
-    WaveInt texel[kMostAxisTaps];   ///< wrapped; of a cube map not
+    bool leaves = false;              ///< some bit of `outside` is set
+    WaveMask readable = kWaveFull;    ///< lanes that weigh a texel of the texture; only a border leaves some without
+    WaveMask outside[kMostAxisTaps];  ///< lanes that weigh this tap and find it beyond an edge of a border or a cube map
+    WaveInt texel[kMostAxisTaps];     ///< wrapped; of a cube map not
     WaveFloat weight[kMostAxisTaps];
 };
 
@@ -101,7 +101,8 @@ HWY_INLINE void drop_unweighed(const WaveMask* weighed, int count, AxisTaps& tap
 }
 
 template <EdgeRule rule>
-HWY_NOINLINE void select_wide_axis_as(const Kernel& kernel, const AxisCoordinates& axis, const WaveInt& level, AxisTaps& taps) {
+HWY_NOINLINE void select_wide_axis_as(const Kernel& kernel, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
+                                      const WaveInt& level, const CoordinateReading& reading, AxisTaps& taps) {
     const FloatTag d;
     const IntTag di;
     const int count = axis_taps(kernel);
@@ -110,9 +111,9 @@ HWY_NOINLINE void select_wide_axis_as(const Kernel& kernel, const AxisCoordinate
     std::fill(taps.outside, taps.outside + count, WaveMask{0});
     taps.readable = kWaveFull;
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto extent = look_up_level(di, *axis.extents, hn::Load(di, level.lane + i));
+        const auto extent = look_up_level(di, extents, hn::Load(di, level.lane + i));
         hn::Vec<FloatTag> integer, remainder;
-        locate<rule>(axis, hn::ConvertTo(d, extent), i, integer, remainder);
+        locate<rule>(coordinate, reading, hn::ConvertTo(d, extent), i, integer, remainder);
         const auto first = kernel_weights(kernel, remainder, taps.weight[0].lane + i, kWaveLanes);
         place_taps<rule>(hn::ConvertTo(di, hn::Add(integer, first)), extent, count, i, taps, weighed);
     }
@@ -121,15 +122,10 @@ HWY_NOINLINE void select_wide_axis_as(const Kernel& kernel, const AxisCoordinate
 }
 
 /// The taps of `kernel` along an axis, for all lanes.
-HWY_INLINE void select_wide_axis(const Kernel& kernel, EdgeRule rule, const AxisCoordinates& axis, const WaveInt& level, AxisTaps& taps) {
-    switch (rule) {
-        case EdgeRule::Repeat: return select_wide_axis_as<EdgeRule::Repeat>(kernel, axis, level, taps);
-        case EdgeRule::MirroredRepeat: return select_wide_axis_as<EdgeRule::MirroredRepeat>(kernel, axis, level, taps);
-        case EdgeRule::ClampToEdge: return select_wide_axis_as<EdgeRule::ClampToEdge>(kernel, axis, level, taps);
-        case EdgeRule::ClampToBorder: return select_wide_axis_as<EdgeRule::ClampToBorder>(kernel, axis, level, taps);
-        case EdgeRule::MirrorOnce: return select_wide_axis_as<EdgeRule::MirrorOnce>(kernel, axis, level, taps);
-        case EdgeRule::CubeEdge: return select_wide_axis_as<EdgeRule::CubeEdge>(kernel, axis, level, taps);
-    }
+HWY_INLINE void select_wide_axis(const Kernel& kernel, EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
+                                 const WaveInt& level, const CoordinateReading& reading, AxisTaps& taps) {
+    with_rule(rule, [&](auto constant)
+                        HWY_ATTR { select_wide_axis_as<decltype(constant)::value>(kernel, coordinate, extents, level, reading, taps); });
 }
 
 /// What a border of ClampToBorder takes along an axis: the weight of the taps outside, and of those inside.

@@ -5,7 +5,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -14,7 +16,7 @@ namespace {
 
 using namespace rawtexel::texunit;
 
-constexpr int kWaves = 256;   // 8192 lookups: few enough that their coordinates stay in L2
+constexpr int kWaves = 256;  // 8192 lookups: few enough that their coordinates stay in L2
 
 std::unique_ptr<Texture> noise_texture(Format format, int extent) {
     std::vector<std::byte> texels(size_t(extent) * size_t(extent) * size_t(info(format).bytes_per_block));
@@ -70,5 +72,62 @@ BENCHMARK_CAPTURE(lookup, bilinear_float, Format::RGBA32Float, 4096, 1.0f, kBili
 BENCHMARK_CAPTURE(lookup, trilinear_rgba8, Format::RGBA8Unorm, 4096, 2.7f, kTrilinear);
 BENCHMARK_CAPTURE(lookup, trilinear_srgb8, Format::RGBA8Srgb, 4096, 2.7f, kTrilinear);
 BENCHMARK_CAPTURE(lookup, bilinear_rgba8_enlarged_30x, Format::RGBA8Unorm, 64, 1.0f / 30, kBilinear);
+
+/// Every other kernel, on the finest level.
+constexpr SamplerState through(Kernel kernel) { return {.magnify = kernel, .minify = kernel, .mip = MipMode::None}; }
+
+BENCHMARK_CAPTURE(lookup, quadratic_rgba8, Format::RGBA8Unorm, 4096, 1.0f, through(Kernel::Quadratic));
+BENCHMARK_CAPTURE(lookup, bspline_rgba8, Format::RGBA8Unorm, 4096, 1.0f, through(Kernel::BSpline));
+BENCHMARK_CAPTURE(lookup, bspline_srgb8, Format::RGBA8Srgb, 4096, 1.0f, through(Kernel::BSpline));
+BENCHMARK_CAPTURE(lookup, bspline_unorm16, Format::RGBA16Unorm, 4096, 1.0f, through(Kernel::BSpline));
+BENCHMARK_CAPTURE(lookup, bspline_half, Format::RGBA16Half, 4096, 1.0f, through(Kernel::BSpline));
+BENCHMARK_CAPTURE(lookup, bspline_float, Format::RGBA32Float, 4096, 1.0f, through(Kernel::BSpline));
+BENCHMARK_CAPTURE(lookup, mitchell_rgba8, Format::RGBA8Unorm, 4096, 1.0f, through(Kernel::mitchell()));
+BENCHMARK_CAPTURE(lookup, catmull_rom_rgba8, Format::RGBA8Unorm, 4096, 1.0f, through(Kernel::CatmullRom));
+BENCHMARK_CAPTURE(lookup, lanczos2_rgba8, Format::RGBA8Unorm, 4096, 1.0f, through(Kernel::Lanczos2));
+BENCHMARK_CAPTURE(lookup, lanczos3_rgba8, Format::RGBA8Unorm, 4096, 1.0f, through(Kernel::Lanczos3));
+BENCHMARK_CAPTURE(lookup, gaussian_rgba8, Format::RGBA8Unorm, 4096, 1.0f, through(Kernel::gaussian()));
+BENCHMARK_CAPTURE(lookup, gaussian_2_rgba8, Format::RGBA8Unorm, 4096, 1.0f, through(Kernel::gaussian(2.0f)));
+BENCHMARK_CAPTURE(lookup, gaussian_point_rgba8, Format::RGBA8Unorm, 4096, 1.0f, through(Kernel::gaussian_point()));
+BENCHMARK_CAPTURE(lookup, bilinear_border_rgba8, Format::RGBA8Unorm, 4096, 1.0f,
+                  SamplerState{Wrap::ClampToBorder, Wrap::ClampToBorder, Kernel::Bilinear, Kernel::Bilinear, MipMode::None});
+
+/// A cube map of one grey.
+class GreyCube final : public TexelSource {
+  public:
+    explicit GreyCube(int extent) : extent_(extent) {}
+    Format format() const override { return Format::RGBA8Unorm; }
+    Shape shape() const override { return {.width = extent_, .height = extent_, .layers = 6, .cube = true}; }
+    uint64_t stored_bytes() const override { return 4; }
+    void decode_block(int, int, int, int, std::byte* texels) override { std::fill(texels, texels + 64, std::byte{128}); }
+
+  private:
+    int extent_;
+};
+
+void cube_lookup(benchmark::State& state, SamplerState sampler) {
+    Texture texture("cube", std::make_unique<GreyCube>(512));
+    // Waves of neighbouring directions all around.
+    std::vector<WaveCoordinates3> waves(kWaves);
+    for (int w = 0; w < kWaves; ++w) {
+        for (int lane = 0; lane < kWaveLanes; ++lane) {
+            const float yaw = 0.02454f * float(w) + 0.002f * float(lane % kWaveWidth),
+                        pitch = 0.005f * float(w) - 0.6f + 0.002f * float(lane / kWaveWidth);
+            const float direction[3] = {std::cos(pitch) * std::cos(yaw), std::sin(pitch), std::cos(pitch) * std::sin(yaw)};
+            for (size_t axis = 0; axis < 3; ++axis) waves[size_t(w)].position[axis][lane] = direction[axis];
+        }
+    }
+    WaveColor color;
+    for (const WaveCoordinates3& at : waves) sample_cube_wave(texture, sampler, at, kWaveFull, color);
+    for (auto _ : state) {
+        for (const WaveCoordinates3& at : waves) {
+            sample_cube_wave(texture, sampler, at, kWaveFull, color);
+            benchmark::DoNotOptimize(color);
+        }
+    }
+    state.SetItemsProcessed(state.iterations() * kWaves * kWaveLanes);
+}
+BENCHMARK_CAPTURE(cube_lookup, bilinear_rgba8, kBilinear);
+BENCHMARK_CAPTURE(cube_lookup, bspline_rgba8, through(Kernel::BSpline));
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace rawtexel::texunit {
 
 struct Tally {
     uint64_t lookups = 0, other_decisions = 0;
-    double worst = 0;   ///< in units of the bound
+    double worst = 0;  ///< in units of the bound
     std::string worst_case;
 };
 

@@ -84,15 +84,17 @@ TEST_P(SampleShapes, VolumesAgreeWithTheReference) {
         const reference::ShapedImage image = image_of(*texture);
         LookupDraw draw(extents, texture->shape().levels, uint32_t(extents[0]) + uint32_t(GetParam()));
         for (const Kernel& kernel : every_kernel()) {
-            if (axis_taps(kernel) > 6 && extents[0] != 5) continue;   // hundreds of taps
+            if (axis_taps(kernel) > 6 && extents[0] != 5) continue;  // hundreds of taps
             SamplerState sampler = draw_sampler(draw, kernel, Wrap(draw.below(5)));
             if (axis_taps(sampler.magnify) > 6 || axis_taps(sampler.minify) > 6) sampler.mip = MipMode::Nearest;
             if (draw.below(4) == 0) sampler.precision = Precision::Gpu;
             if (draw.below(4) == 0) sampler.lod_rule = LodRule::Exact;
             const auto lookups = draw_lookups([&] { return draw.next_in_volume(); });
             const WaveCoordinates3 at = gather(lookups, 0);
-            hold(sampler, [&](WaveColor& colour) { sample_volume_wave(*texture, sampler, at, kWaveFull, colour); },
-                 [&](int i, const Shift& shift) { return reference::sample_volume(image, sampler, lookups[size_t(i)], shift); }, lookups, tally);
+            hold(
+                sampler, [&](WaveColor& colour) { sample_volume_wave(*texture, sampler, at, kWaveFull, colour); },
+                [&](int i, const Shift& shift) { return reference::sample_volume(image, sampler, lookups[size_t(i)], shift); }, lookups,
+                tally);
             if (HasFatalFailure()) return;
         }
     }
@@ -117,8 +119,9 @@ TEST_P(SampleShapes, CubeMapsAgreeWithTheReference) {
                 const auto ask = [&](int i, const Shift& shift) {
                     return reference::sample_cube(image, sampler, lookups[size_t(i)], i % 3 == 2 ? 1 : i % 3 == 1, shift);
                 };
-                hold(sampler, [&](WaveColor& colour) { sample_cube_wave(*texture, sampler, at, kWaveFull, colour, {.layer = &cube}); }, ask,
-                     lookups, tally);
+                hold(
+                    sampler, [&](WaveColor& colour) { sample_cube_wave(*texture, sampler, at, kWaveFull, colour, {.layer = &cube}); }, ask,
+                    lookups, tally);
                 if (HasFatalFailure()) return;
             }
         }
@@ -131,9 +134,9 @@ TEST_P(SampleShapes, ArraysReadTheNearestLayer) {
     const auto texture = hashed_texture(GetParam(), {.width = 20, .height = 11, .layers = 5});
     const reference::ShapedImage image = image_of(*texture);
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    const std::pair<float, int> layers[] = {{0, 0},    {0.5f, 0},  {0.50001f, 1}, {1.5f, 2},  {2.5f, 2},     {3.49f, 3},        {4, 4},
-                                            {4.7f, 4}, {1e30f, 4}, {-0.4f, 0},    {-2e9f, 0}, {kInfinity, 4}, {-kInfinity, 0},
-                                            {std::numeric_limits<float>::quiet_NaN(), 0}};
+    const std::pair<float, int> layers[] = {
+        {0, 0},    {0.5f, 0},  {0.50001f, 1}, {1.5f, 2},  {2.5f, 2},      {3.49f, 3},      {4, 4},
+        {4.7f, 4}, {1e30f, 4}, {-0.4f, 0},    {-2e9f, 0}, {kInfinity, 4}, {-kInfinity, 0}, {std::numeric_limits<float>::quiet_NaN(), 0}};
     LookupDraw draw({20, 11, 1}, texture->shape().levels, 3);
     Tally tally;
     for (const Kernel& kernel : every_kernel()) {
@@ -149,11 +152,10 @@ TEST_P(SampleShapes, ArraysReadTheNearestLayer) {
             shown[size_t(i)].position = {flat.back().u, flat.back().v, layer[i]};
         }
         const WaveCoordinates at = gather(flat, 0);
-        hold(sampler, [&](WaveColor& colour) { sample_wave(*texture, sampler, at, kWaveFull, colour, LookupExtras{.layer = &layer}); },
-             [&](int i, const Shift& shift) {
-                 return reference::sample_layer(image, sampler, flat[size_t(i)], expected[size_t(i)], shift);
-             },
-             shown, tally);
+        hold(
+            sampler, [&](WaveColor& colour) { sample_wave(*texture, sampler, at, kWaveFull, colour, LookupExtras{.layer = &layer}); },
+            [&](int i, const Shift& shift) { return reference::sample_layer(image, sampler, flat[size_t(i)], expected[size_t(i)], shift); },
+            shown, tally);
         if (HasFatalFailure()) return;
     }
 }
@@ -165,7 +167,8 @@ Lookup3 towards(int face, float s, float t) {
                                            {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}},  {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}};
     Lookup3 at{};
     for (size_t axis = 0; axis < 3; ++axis) {
-        at.position[axis] = float(kAxes[face][0][axis]) * (2 * s - 1) + float(kAxes[face][1][axis]) * (2 * t - 1) + float(kAxes[face][2][axis]);
+        at.position[axis] =
+            float(kAxes[face][0][axis]) * (2 * s - 1) + float(kAxes[face][1][axis]) * (2 * t - 1) + float(kAxes[face][2][axis]);
     }
     return at;
 }
@@ -184,12 +187,13 @@ TEST(CubeMaps, AreSeamlessAcrossEdgesAndCorners) {
     }
     const auto colour_at = [&](const Kernel& kernel, const Lookup3& at) {
         WaveColor colour;
-        sample_cube_wave(*texture, {.magnify = kernel, .minify = kernel, .mip = MipMode::None}, gather({std::vector<Lookup3>(32, at)}, 0), 1,
-                         colour);
+        sample_cube_wave(*texture, {.magnify = kernel, .minify = kernel, .mip = MipMode::None}, gather({std::vector<Lookup3>(32, at)}, 0),
+                         1, colour);
         return lane_of(colour, 0);
     };
     constexpr float kStep = 1e-5f;
-    const Kernel kernels[] = {Kernel::Bilinear, Kernel::Quadratic, Kernel::BSpline, Kernel::CatmullRom, Kernel::Lanczos3, Kernel::gaussian()};
+    const Kernel kernels[] = {Kernel::Bilinear,   Kernel::Quadratic, Kernel::BSpline,
+                              Kernel::CatmullRom, Kernel::Lanczos3,  Kernel::gaussian()};
     for (const Kernel& kernel : kernels) {
         // A step of 2e-5 of a face is 1.6e-4 texels; no kernel here is steeper than 3 a texel along an axis. A corner is no limit point of
         // wide kernels, which see it differently from each face.
@@ -288,7 +292,8 @@ TEST(SampleConstant, ShapesComeBackBitEqualThroughNarrowKernelsAndCloseThroughWi
                     for (int i = 0; i < kWaveLanes; ++i) {
                         for (size_t c = 0; c < 4; ++c) {
                             const float found = lane_of(colours[shape], i)[c];
-                            const double bound = is_narrow_kernel(kernel) ? 0.0 : double(std::abs(kValue[c])) * count * 0x1p-24 * (extreme ? 40.0 : 1.0);
+                            const double bound =
+                                is_narrow_kernel(kernel) ? 0.0 : double(std::abs(kValue[c])) * count * 0x1p-24 * (extreme ? 40.0 : 1.0);
                             ASSERT_NEAR(found, kValue[c], bound)
                                 << "shape " << shape << ' ' << describe(sampler) << " on " << to_string(simd)
                                 << (shape == 0 ? describe(lookups[size_t(i)]) : describe((shape == 1 ? lookups3 : directions)[size_t(i)]));

@@ -15,7 +15,7 @@ int extent_of(int base, int level) { return std::max(1, base >> level); }
 
 /// Level of detail (Vulkan "Scale Factor Operation, Level-of-Detail Operation"; D3D11.3 7.18.11) from derivatives in texels of level 0.
 struct Levels {
-    double lambda;   ///< after bias and bounds
+    double lambda;  ///< after bias and bounds
     int finer, coarser;
     double fraction;
 };
@@ -155,21 +155,24 @@ Sample sample_volume(const ShapedImage& image, const SamplerState& sampler, cons
     std::array<double, 3> dx, dy;
     for (size_t axis = 0; axis < 3; ++axis) dx[axis] = at.dx[axis] * extent[axis], dy[axis] = at.dy[axis] * extent[axis];
     Sample result;
-    add_levels(sampler, choose_levels(sampler, image.levels, dx, dy, shift.lambda), result, [&](const Kernel& kernel, int level, double weight) {
-        const auto columns = axis_taps(kernel, sampler, sampler.wrap_s, at.position[0], extent_of(image.width, level), shift.texel[0], shift.cut);
-        const auto rows = axis_taps(kernel, sampler, sampler.wrap_t, at.position[1], extent_of(image.height, level), shift.texel[1], shift.cut);
-        const auto slices = axis_taps(kernel, sampler, sampler.wrap_r, at.position[2], extent_of(image.depth, level), 0, shift.cut);
-        for (const AxisTap& slice : slices) {
-            for (const AxisTap& row : rows) {
-                for (const AxisTap& column : columns) {
-                    const bool border = slice.texel == kBorder || row.texel == kBorder || column.texel == kBorder;
-                    result.texels += !border;
-                    add_texel(border ? border_of(sampler) : image.texel(level, slice.texel, column.texel, row.texel),
-                              slice.weight * row.weight * column.weight * weight, result);
+    add_levels(
+        sampler, choose_levels(sampler, image.levels, dx, dy, shift.lambda), result, [&](const Kernel& kernel, int level, double weight) {
+            const auto columns =
+                axis_taps(kernel, sampler, sampler.wrap_s, at.position[0], extent_of(image.width, level), shift.texel[0], shift.cut);
+            const auto rows =
+                axis_taps(kernel, sampler, sampler.wrap_t, at.position[1], extent_of(image.height, level), shift.texel[1], shift.cut);
+            const auto slices = axis_taps(kernel, sampler, sampler.wrap_r, at.position[2], extent_of(image.depth, level), 0, shift.cut);
+            for (const AxisTap& slice : slices) {
+                for (const AxisTap& row : rows) {
+                    for (const AxisTap& column : columns) {
+                        const bool border = slice.texel == kBorder || row.texel == kBorder || column.texel == kBorder;
+                        result.texels += !border;
+                        add_texel(border ? border_of(sampler) : image.texel(level, slice.texel, column.texel, row.texel),
+                                  slice.weight * row.weight * column.weight * weight, result);
+                    }
                 }
             }
-        }
-    });
+        });
     return result;
 }
 
@@ -177,8 +180,7 @@ Sample sample_cube(const ShapedImage& image, const SamplerState& sampler, const 
     const FacePoint at = face_point(direction);
     const double n = image.width;
     Sample result;
-    const Levels levels =
-        choose_levels(sampler, image.levels, {at.dsdx * n, at.dtdx * n, 0}, {at.dsdy * n, at.dtdy * n, 0}, shift.lambda);
+    const Levels levels = choose_levels(sampler, image.levels, {at.dsdx * n, at.dtdx * n, 0}, {at.dsdy * n, at.dtdy * n, 0}, shift.lambda);
     add_levels(sampler, levels, result, [&](const Kernel& kernel, int level, double weight) {
         const int size = extent_of(image.width, level);
         const auto taps = [&](double s, double moved) {

@@ -13,7 +13,7 @@ using Colour = std::array<double, 4>;
 
 struct Image {
     int width, height, levels;
-    std::function<Colour(int level, int x, int y)> texel;   ///< linear RGBA; 0 <= x < extent of the level
+    std::function<Colour(int level, int x, int y)> texel;  ///< linear RGBA; 0 <= x < extent of the level
 };
 
 /// A texture of any shape. `slice` is an array layer, 6*cube + face, or a depth slice.
@@ -33,20 +33,20 @@ struct Lookup3 {
 
 /// Moves thresholds: with it a test asks what the other side of a discrete decision would give.
 struct Shift {
-    double lambda = 0;    ///< added to the level of detail
-    double cut = 0;       ///< added to the reach of gaussian-point, texels
+    double lambda = 0;              ///< added to the level of detail
+    double cut = 0;                 ///< added to the reach of gaussian-point, texels
     std::array<double, 2> texel{};  ///< added to texel-space coordinates along s and t, before they are snapped for Precision::Gpu
 };
 
 struct Sample {
     Colour colour{};
-    Colour least{}, most{};     ///< of the texels read with a weight that is not 0
-    double largest = 0;         ///< largest absolute value read, or of a border that is
-    int taps = 0;               ///< with those that take the border
-    int texels = 0;             ///< reads; a tap beyond a corner of a cube map is three
-    double magnitude = 0;       ///< sum of the weights' magnitudes
+    Colour least{}, most{};  ///< of the texels read with a weight that is not 0
+    double largest = 0;      ///< largest absolute value read, or of a border that is
+    int taps = 0;            ///< with those that take the border
+    int texels = 0;          ///< reads; a tap beyond a corner of a cube map is three
+    double magnitude = 0;    ///< sum of the weights' magnitudes
     bool mixes_levels = false;
-    double lambda = 0;          ///< after bias and bounds, before the clamp to the levels
+    double lambda = 0;  ///< after bias and bounds, before the clamp to the levels
 };
 
 /// `lambda_shift` as in Shift.

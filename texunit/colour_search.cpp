@@ -1,0 +1,184 @@
+#include "texunit/colour_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rawtexel::texunit {
+namespace {
+
+/// Boxes looked at in one family before it counts as searched. Wrong colours need a handful; right ones are found by descent.
+constexpr int kMostBoxes = 4096;
+
+Colour colour_in(const ColourPatch& patch, double x, double y) {
+    Colour colour;
+    for (size_t c = 0; c < 4; ++c) {
+        const double upper = patch.corner[0][c] + x * (patch.corner[1][c] - patch.corner[0][c]);
+        const double lower = patch.corner[2][c] + x * (patch.corner[3][c] - patch.corner[2][c]);
+        colour[c] = upper + y * (lower - upper);
+    }
+    return colour;
+}
+
+/// Solves the symmetric positive definite n*n system a*x = b in place: Gauss without pivots. x is left in b.
+template <size_t size>
+void solve(std::array<std::array<double, size>, size>& a, std::array<double, size>& b, size_t n) {
+    for (size_t i = 0; i < n; ++i) {
+        for (size_t row = i + 1; row < n; ++row) {
+            const double factor = a[row][i] / a[i][i];
+            for (size_t column = i; column < n; ++column) a[row][column] -= factor * a[i][column];
+            b[row] -= factor * b[i];
+        }
+    }
+    for (size_t i = n; i-- > 0;) {
+        for (size_t column = i + 1; column < n; ++column) b[i] -= a[i][column] * b[column];
+        b[i] /= a[i][i];
+    }
+}
+
+}  // namespace
+
+ColourSearch::ColourSearch(const Colour& wanted, double threshold)
+    : wanted_(wanted), threshold_(threshold), excess_(std::numeric_limits<double>::infinity()) {
+    least_.fill(std::numeric_limits<double>::infinity());
+    most_.fill(-std::numeric_limits<double>::infinity());
+}
+
+void ColourSearch::visit(const ColourPatch& patch) {
+    finer_ = &patch;
+    coarser_ = nullptr;
+    sides_ = 2;
+    boxes_left_ = kMostBoxes;
+    search({Range{0, 1}, {0, 1}, {0, 0}, {0, 0}, {0, 0}}, true);
+}
+
+void ColourSearch::visit(const ColourPatch& finer, const ColourPatch& coarser, Range share) {
+    finer_ = &finer;
+    coarser_ = &coarser;
+    sides_ = kMostSides;
+    boxes_left_ = kMostBoxes;
+    search({Range{0, 1}, {0, 1}, {0, 1}, {0, 1}, share}, true);
+}
+
+Colour ColourSearch::colour_at(const Place& place) const {
+    Colour colour = colour_in(*finer_, place[0], place[1]);
+    if (coarser_ == nullptr) return colour;
+    const Colour second = colour_in(*coarser_, place[2], place[3]);
+    for (size_t c = 0; c < 4; ++c) colour[c] += place[4] * (second[c] - colour[c]);
+    return colour;
+}
+
+/// Notes a colour and returns how far it is, in thresholds.
+double ColourSearch::measure(const Colour& colour) {
+    double farthest = 0;
+    for (size_t c = 0; c < 4; ++c) farthest = std::max(farthest, std::abs(colour[c] - wanted_[c]));
+    const double excess = farthest == 0 ? 0 : farthest / threshold_;
+    if (excess < excess_) {
+        excess_ = excess;
+        closest_ = colour;
+    }
+    return excess;
+}
+
+/// Branch and bound: a multilinear function over a box lies between its values at the corners, so that most boxes are ruled out whole.
+void ColourSearch::search(const Box& box, bool whole) {
+    std::array<Colour, size_t{1} << kMostSides> colours;
+    Colour least, most;
+    const size_t corners = size_t{1} << sides_;
+    for (size_t n = 0; n < corners; ++n) {
+        Place place{};
+        for (size_t side = 0; side < sides_; ++side) place[side] = (n >> side & 1) != 0 ? box[side].high : box[side].low;
+        colours[n] = colour_at(place);
+        measure(colours[n]);
+        for (size_t c = 0; c < 4; ++c) {
+            least[c] = n == 0 ? colours[n][c] : std::min(least[c], colours[n][c]);
+            most[c] = n == 0 ? colours[n][c] : std::max(most[c], colours[n][c]);
+        }
+    }
+    for (size_t c = 0; whole && c < 4; ++c) {
+        least_[c] = std::min(least_[c], least[c]);
+        most_[c] = std::max(most_[c], most[c]);
+    }
+    if (excess_ <= 1) return;
+
+    bool reachable = true;
+    double spread = 0;
+    for (size_t c = 0; c < 4; ++c) {
+        reachable = reachable && least[c] - threshold_ <= wanted_[c] && wanted_[c] <= most[c] + threshold_;
+        spread = std::max(spread, most[c] - least[c]);
+    }
+    // Corners this close together leave nothing to find between them.
+    if (!reachable || spread <= threshold_ * 1e-3 || --boxes_left_ <= 0) return;
+    Place middle{};
+    for (size_t side = 0; side < sides_; ++side) middle[side] = (box[side].low + box[side].high) / 2;
+    descend(box, middle);
+    if (excess_ <= 1) return;
+
+    // Halve the side along which colours change most.
+    size_t widest = 0;
+    double most_change = -1;
+    for (size_t side = 0; side < sides_; ++side) {
+        double change = 0;
+        for (size_t n = 0; n < corners; ++n) {
+            if ((n >> side & 1) != 0) continue;
+            for (size_t c = 0; c < 4; ++c) change = std::max(change, std::abs(colours[n][c] - colours[n | size_t{1} << side][c]));
+        }
+        if (change > most_change) most_change = change, widest = side;
+    }
+    Box lower = box, upper = box;
+    lower[widest].high = upper[widest].low = middle[widest];
+    search(lower, false);
+    if (excess_ > 1) search(upper, false);
+}
+
+/// Change of the colour along each side.
+std::array<Colour, ColourSearch::kMostSides> ColourSearch::slopes(const Place& place) const {
+    std::array<Colour, kMostSides> slopes{};
+    for (size_t side = 0; side < sides_; ++side) {
+        // Linear along each side by itself, and defined beyond the ends.
+        Place low = place, high = place;
+        low[side] = 0, high[side] = 1;
+        const Colour from = colour_at(low), to = colour_at(high);
+        for (size_t c = 0; c < 4; ++c) slopes[side][c] = to[c] - from[c];
+    }
+    return slopes;
+}
+
+/// Levenberg and Marquardt's steps towards the wanted colour, kept inside the box: finds it quickly where it is there to be found.
+void ColourSearch::descend(const Box& box, Place place) {
+    constexpr int kMostSteps = 12;
+    for (int step = 0; step < kMostSteps; ++step) {
+        const Colour here = colour_at(place);
+        if (measure(here) <= 1) return;
+        const auto slope = slopes(place);
+        // Sides on a wall that the gradient pushes against stay.
+        std::array<size_t, kMostSides> free_sides;
+        size_t count = 0;
+        for (size_t side = 0; side < sides_; ++side) {
+            double pull = 0;
+            for (size_t c = 0; c < 4; ++c) pull += slope[side][c] * (wanted_[c] - here[c]);
+            const bool stuck = (place[side] <= box[side].low && pull < 0) || (place[side] >= box[side].high && pull > 0);
+            if (!stuck && pull != 0) free_sides[count++] = side;
+        }
+        if (count == 0) return;
+
+        std::array<std::array<double, kMostSides>, kMostSides> normal{};
+        std::array<double, kMostSides> move{};
+        double trace = 0;
+        for (size_t i = 0; i < count; ++i) {
+            for (size_t c = 0; c < 4; ++c) {
+                move[i] += slope[free_sides[i]][c] * (wanted_[c] - here[c]);
+                for (size_t j = 0; j < count; ++j) normal[i][j] += slope[free_sides[i]][c] * slope[free_sides[j]][c];
+            }
+            trace += normal[i][i];
+        }
+        for (size_t i = 0; i < count; ++i) normal[i][i] += 1e-9 * trace;
+        solve(normal, move, count);
+        for (size_t i = 0; i < count; ++i) {
+            const size_t side = free_sides[i];
+            place[side] = std::clamp(place[side] + move[i], box[side].low, box[side].high);
+        }
+    }
+}
+
+}  // namespace rawtexel::texunit

@@ -1,0 +1,62 @@
+// Is a colour among those that filtering may give? Families of colours, multilinear in coordinates and level fraction, are searched for
+// one.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace rawtexel::texunit {
+
+using Colour = std::array<double, 4>;
+
+struct Range {
+    double low, high;
+};
+
+/// Colours that one level may give for coordinates within a stretch of each axis: bilinear between four.
+struct ColourPatch {
+    std::array<Colour, 4> corner;  ///< [2*y + x]
+};
+
+/// Looks for the colour closest to one that is wanted, until one is close enough.
+class ColourSearch {
+  public:
+    /// Close enough is within `threshold` in every channel.
+    ColourSearch(const Colour& wanted, double threshold);
+
+    /// All colours of one level's patch.
+    void visit(const ColourPatch& patch);
+    /// Those of two levels' patches, mixed with a share of `coarser` within `share`; places in the two are independent.
+    void visit(const ColourPatch& finer, const ColourPatch& coarser, Range share);
+
+    /// Of the closest colour found: its largest difference of a channel in thresholds. At most 1: a legal one was found.
+    double excess() const { return excess_; }
+    const Colour& closest() const { return closest_; }
+    /// Bounds of all colours visited, each channel by itself.
+    const Colour& least() const { return least_; }
+    const Colour& most() const { return most_; }
+
+  private:
+    /// Coordinates of a colour in its family: x, y of the finer patch, x, y of the coarser, share.
+    static constexpr size_t kMostSides = 5;
+    using Place = std::array<double, kMostSides>;
+    using Box = std::array<Range, kMostSides>;
+
+    Colour colour_at(const Place& place) const;
+    double measure(const Colour& colour);
+    void search(const Box& box, bool whole);
+    void descend(const Box& box, Place place);
+    std::array<Colour, kMostSides> slopes(const Place& place) const;
+
+    Colour wanted_;
+    double threshold_;
+    const ColourPatch* finer_ = nullptr;
+    const ColourPatch* coarser_ = nullptr;  ///< null: one level
+    size_t sides_ = 2;
+    int boxes_left_ = 0;
+
+    double excess_;
+    Colour closest_{}, least_, most_;
+};
+
+}  // namespace rawtexel::texunit
