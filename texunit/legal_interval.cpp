@@ -136,6 +136,10 @@ std::vector<Stretch> stretches(const Kernel& kernel, Range x) {
         for (int part = 0; part < std::max(parts, 1); ++part)
             all.push_back({axis_weights(kernel, at(part)), axis_weights(kernel, at(part + 1))});
     }
+    // At the very ends of 4 sigma both outermost texels count, which neither neighbouring stretch shows; snapped coordinates fall there.
+    if (kernel.kind == KernelKind::GaussianPoint) {
+        for (const double at : breaks) all.push_back({axis_weights(kernel, at), axis_weights(kernel, at)});
+    }
     return all;
 }
 
