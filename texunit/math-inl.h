@@ -69,10 +69,20 @@ HWY_INLINE V fused_multiply_add(V a, V b, V c) {
 #endif
 }
 
+/// c - a*b, rounded once.
+template <class V>
+HWY_INLINE V fused_negative_multiply_add(V a, V b, V c) {
+#if HWY_TARGET == HWY_SCALAR || RAWTEXEL_TWO_ROUNDINGS
+    return fused_multiply_add(hn::Neg(a), b, c);
+#else
+    return hn::NegMulAdd(a, b, c);
+#endif
+}
+
 /// a + t*(b - a) as fma(t, b, fma(-t, a, a)): a where a = b, within [a, b] for t in [0, 1], exact at both ends.
 template <class V>
 HWY_INLINE V lerp(V t, V a, V b) {
-    return fused_multiply_add(t, b, fused_multiply_add(hn::Neg(t), a, a));
+    return fused_multiply_add(t, b, fused_negative_multiply_add(t, a, a));
 }
 
 /// lerp for texels that may be infinite, where a*(1 - t) + b*t is meant: an infinite end wins, opposite infinities give NaN.

@@ -1,7 +1,7 @@
 // One lookup for a wave on this instruction set, from coordinates to colour: the definitions behind texunit/sample-inl.h.
 #include "texunit/cube-inl.h"
 #include "texunit/elliptical-inl.h"
-#include "texunit/probes-inl.h"
+#include "texunit/packed_probes-inl.h"
 #include "texunit/sample_levels-inl.h"
 
 #include <hwy/highway.h>
@@ -63,6 +63,7 @@ HWY_NOINLINE void sample_anisotropic(Texture& texture, const SamplerState& sampl
     ProbeChoice probes;
     select_footprint(texture.levels(), sampler, at, choice, probes);
     if (lod != nullptr) *lod = choice.lod;
+    if (takes_packed_probes(texture, sampler)) return sample_packed_probes(texture, sampler, choice, probes, position, mask, count, out);
     const auto sample_at = [&](const WavePosition& place, WaveMask active, WaveColor& colour)
                                HWY_ATTR { sample_levels(texture, sampler, place, choice, active, count, colour); };
     sample_probes(sampler, probes, position, mask, count, sample_at, out);

@@ -5,7 +5,7 @@
 #include "texunit/sample.h"
 #include "texunit/simd.h"
 
-#include "tests/reference/texunit/sampler_reference.h"
+#include "tests/reference/texunit/footprint_reference.h"
 #include "tests/texunit/hashed_source.h"
 
 #include <gtest/gtest.h>
@@ -54,17 +54,21 @@ float in_period(Wrap wrap, float u) {
     return u;
 }
 
-/// The weighted mean of the probes that measure_footprint names, each a trilinear lookup of the level it names.
-reference::Sample mean_of_probes(const reference::Image& image, SamplerState sampler, const WaveCoordinates& at, const WaveFootprint& footprint, int i) {
+/// The weighted mean of the probes that measure_footprint names, each a trilinear lookup of the level it names. `rounded`: probes lie at
+/// float coordinates.
+reference::Sample mean_of_probes(const reference::Image& image, const SamplerState& sampler, const WaveCoordinates& at,
+                                 const WaveFootprint& footprint, int i, bool rounded) {
     const ProbeTable& table = sampler.probe_variance > 0 ? gaussian_probes() : uniform_probes();
-    const float derivative = std::exp2(footprint.lod[i]) / float(image.width);
-    sampler.probes = 1, sampler.lod_bias = 0, sampler.min_lod = 0;
+    const auto moved = [&](Wrap wrap, float coordinate, float place, float axis) {
+        const float start = in_period(wrap, coordinate);
+        return rounded ? double(std::fma(place, axis, start)) : double(place) * double(axis) + double(start);
+    };
     reference::Sample mean;
     for (int n = 0; n < footprint.probes[i]; ++n) {
         const auto place = size_t(kMostProbes * footprint.probes[i] + n);
-        const float u = std::fma(table.place[place], footprint.axis_u[i], in_period(sampler.wrap_s, at.u[i]));
-        const float v = std::fma(table.place[place], footprint.axis_v[i], in_period(sampler.wrap_t, at.v[i]));
-        const reference::Sample probe = reference::sample(image, sampler, {u, v, derivative, 0, 0, 0});
+        const double u = moved(sampler.wrap_s, at.u[i], table.place[place], footprint.axis_u[i]);
+        const double v = moved(sampler.wrap_t, at.v[i], table.place[place], footprint.axis_v[i]);
+        const reference::Sample probe = reference::linear_sample(image, sampler, u, v, footprint.lod[i]);
         mean.taps += probe.taps;
         mean.largest = std::max(mean.largest, probe.largest);
         for (size_t c = 0; c < 4; ++c) {
@@ -76,39 +80,51 @@ reference::Sample mean_of_probes(const reference::Image& image, SamplerState sam
     return mean;
 }
 
+/// Packed formats at extents of powers of two take the fast way (texunit/packed_probes-inl.h), whose positions are not rounded to floats.
 TEST_P(Probes, GiveTheWeightedMeanOfTheirLookups) {
-    constexpr int kWidth = 256, kHeight = 64;
     std::mt19937 random(11);
+    struct Case {
+        Format format;
+        int width, height;
+    };
     double worst = 0;
-    for (const Format format : {Format::RGBA8Unorm, Format::RGBA8Srgb, Format::RGBA16Unorm, Format::RGBA16Half, Format::RGBA32Float}) {
-        Texture texture("hashed", make_hashed_pyramid(format, kWidth, kHeight));
-        const reference::Image image{kWidth, kHeight, texture.shape().levels, [&](int level, int x, int y) {
+    for (const Case& one : {Case{Format::RGBA8Unorm, 256, 64}, {Format::RGBA8Unorm, 4096, 1024}, {Format::RGBA8Unorm, 100, 37},
+                            {Format::RGBA8Srgb, 256, 64}, {Format::RGBA8Snorm, 16, 512}, {Format::RG8Unorm, 64, 64}, {Format::R16Unorm, 64, 64},
+                            {Format::RGBA16Unorm, 256, 64}, {Format::RGBA16Half, 256, 64}, {Format::RGBA32Float, 256, 64}}) {
+        Texture texture("hashed", make_hashed_pyramid(one.format, one.width, one.height));
+        const reference::Image image{one.width, one.height, texture.shape().levels, [&](int level, int x, int y) {
                                          const std::array<float, 4> value = texture.texel(level, 0, x, y);
                                          return reference::Colour{value[0], value[1], value[2], value[3]};
                                      }};
-        for (int n = 0; n < 40; ++n) {
+        for (int n = 0; n < 60; ++n) {
             const SamplerState sampler{.wrap_s = Wrap(n % 3),
                                        .wrap_t = Wrap(n / 3 % 3),
                                        .mip = n % 7 == 0 ? MipMode::Nearest : MipMode::Linear,
                                        .probes = std::array{2, 7, 16, 64}[size_t(n % 4)],
                                        .probe_variance = n % 5 == 0 ? 1.0f / 6 : 0.0f,
                                        .lod_rule = n % 2 ? LodRule::Exact : LodRule::D3d};
-            const WaveCoordinates at = random_footprints(random, kWidth, kHeight, 80);
+            const bool packed = texture.texel_layout().storage == StorageClass::Packed32;
+            const bool by_mask = one.width != 100 || (sampler.wrap_s == Wrap::ClampToEdge && sampler.wrap_t == Wrap::ClampToEdge);
+            const WaveCoordinates at = random_footprints(random, one.width, one.height, 80);
             WaveFootprint footprint;
             measure_footprint(texture.levels(), sampler, at, footprint);
-            WaveColor colour;
+            WaveColor colour, uncounted;
             FetchCounts counts;
             sample_wave(texture, sampler, at, kWaveFull, colour, &counts);
+            sample_wave(texture, sampler, at, kWaveFull, uncounted);
             uint64_t taps = 0;
             for (int i = 0; i < kWaveLanes; ++i) {
-                const reference::Sample expected = mean_of_probes(image, sampler, at, footprint, i);
+                const reference::Sample expected = mean_of_probes(image, sampler, at, footprint, i, !(packed && by_mask));
                 taps += uint64_t(expected.taps);
                 const double bound = ((expected.taps + 8) * 0x1p-24 + 0x1p-20) * expected.largest;
                 for (size_t c = 0; c < 4; ++c) {
                     const double error = std::abs(colour.channel[c][i] - expected.colour[c]);
                     worst = std::max(worst, error / bound);
-                    ASSERT_LE(error, bound) << info(format).name << " sampler " << n << " lane " << i << " probes " << footprint.probes[i];
-                    ASSERT_TRUE(colour.channel[c][i] >= expected.least[c] && colour.channel[c][i] <= expected.most[c]);
+                    ASSERT_LE(error, bound) << info(one.format).name << ' ' << one.width << " sampler " << n << " lane " << i << " probes "
+                                            << footprint.probes[i] << " level " << footprint.lod[i];
+                    ASSERT_TRUE(colour.channel[c][i] >= expected.least[c] && colour.channel[c][i] <= expected.most[c])
+                        << info(one.format).name << " sampler " << n << " lane " << i << " channel " << c << ": " << colour.channel[c][i];
+                    ASSERT_EQ(colour.channel[c][i], uncounted.channel[c][i]) << "counting changes nothing";
                 }
             }
             EXPECT_EQ(counts.lookups, 32u);
@@ -116,6 +132,35 @@ TEST_P(Probes, GiveTheWeightedMeanOfTheirLookups) {
         }
     }
     RecordProperty("worst_in_bounds", std::to_string(worst));
+}
+
+/// A lazily decoded texture: the quick look at rectangles of blocks must not let a probe read what is not there.
+TEST_P(Probes, ReadNothingThatIsNotDecoded) {
+    std::mt19937 random(17);
+    for (int n = 0; n < 40; ++n) {
+        Texture lazy("lazy", make_hashed_pyramid(Format::RGBA8Unorm, 256, 128)), whole("whole", make_hashed_pyramid(Format::RGBA8Unorm, 256, 128));
+        for (int level = 0; level < whole.shape().levels; ++level) {
+            for (int y = 0; y < level_extent(128, level); y += 4) {
+                for (int x = 0; x < level_extent(256, level); x += 4) whole.ensure(level, 0, x, y);
+            }
+        }
+        ASSERT_TRUE(whole.complete());
+        const SamplerState sampler{.wrap_s = Wrap(n % 3), .wrap_t = Wrap(n / 3 % 3), .probes = 16, .probe_variance = n % 2 ? 0.2f : 0.0f};
+        for (int wave = 0; wave < 20; ++wave) {
+            // Neighbouring waves, so that some of their blocks are there and others not.
+            WaveCoordinates at = random_footprints(random, 256, 128, 20);
+            for (int i = 0; i < kWaveLanes; ++i) {
+                at.u[i] = 0.4f + 0.01f * float(wave + i % 8), at.v[i] = 0.9f + 0.01f * float(i / 8);
+                if (wave % 2) {
+                    for (WaveFloat* derivative : {&at.dudx, &at.dvdx, &at.dudy, &at.dvdy}) (*derivative)[i] = (*derivative)[0];
+                }
+            }
+            WaveColor found, expected;
+            sample_wave(lazy, sampler, at, kWaveFull, found);
+            sample_wave(whole, sampler, at, kWaveFull, expected);
+            ASSERT_EQ(std::memcmp(&found, &expected, sizeof(found)), 0) << n << " wave " << wave;
+        }
+    }
 }
 
 TEST_P(Probes, OfEveryNumberLeaveConstantsBitEqual) {

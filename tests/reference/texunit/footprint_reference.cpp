@@ -16,6 +16,20 @@ Jacobian jacobian(const Image& image, const Lookup& at) {
             (long double)(at.dvdy) * image.height};
 }
 
+/// Vulkan "Wrapping Operation", without borders.
+int wrap_texel(Wrap wrap, long long i, int extent) {
+    const auto mod = [](long long a, long long n) { return ((a % n) + n) % n; };
+    switch (wrap) {
+        case Wrap::Repeat: return int(mod(i, extent));
+        case Wrap::MirroredRepeat: {
+            const long long fold = mod(i, 2LL * extent) - extent;
+            return int(extent - 1 - (fold >= 0 ? fold : -(1 + fold)));
+        }
+        case Wrap::MirrorOnce: return int(std::clamp<long long>(i >= 0 ? i : -(1 + i), 0, extent - 1));
+        default: return int(std::clamp<long long>(i, 0, extent - 1));
+    }
+}
+
 double clamp_lambda(const SamplerState& sampler, double lambda) {
     const double biased = lambda + double(sampler.lod_bias);
     const double bounded = std::max(double(sampler.min_lod), std::min(double(sampler.max_lod), biased));
@@ -71,6 +85,36 @@ Footprint footprint(const Image& image, const SamplerState& sampler, const Looku
     result.axis_u = axes.s * axes.major / image.width;
     result.axis_v = axes.t * axes.major / image.height;
     return result;
+}
+
+Sample linear_sample(const Image& image, const SamplerState& sampler, double u, double v, double lod) {
+    const double d = std::clamp(lod, 0.0, double(image.levels - 1));
+    const int finer = sampler.mip == MipMode::None ? 0 : sampler.mip == MipMode::Nearest ? int(std::ceil(d + 0.5)) - 1 : int(std::floor(d));
+    const double fraction = sampler.mip == MipMode::Linear ? d - finer : 0;
+    Sample sum;
+    for (const auto& [level, share] : {std::pair{finer, 1 - fraction}, {finer + 1, fraction}}) {
+        if (share == 0) continue;
+        const int width = std::max(1, image.width >> level), height = std::max(1, image.height >> level);
+        const double x = u * width - 0.5, y = v * height - 0.5;
+        for (int j = 0; j < 2; ++j) {
+            for (int i = 0; i < 2; ++i) {
+                const double across = x - std::floor(x), down = y - std::floor(y);
+                const double weight = share * (i ? across : 1 - across) * (j ? down : 1 - down);
+                if (weight == 0) continue;
+                const int column = wrap_texel(sampler.wrap_s, (long long)(std::floor(x)) + i, width);
+                const int row = wrap_texel(sampler.wrap_t, (long long)(std::floor(y)) + j, height);
+                const Colour texel = image.texel(level, column, row);
+                for (size_t c = 0; c < 4; ++c) {
+                    sum.colour[c] += weight * texel[c];
+                    sum.least[c] = sum.taps == 0 ? texel[c] : std::min(sum.least[c], texel[c]);
+                    sum.most[c] = sum.taps == 0 ? texel[c] : std::max(sum.most[c], texel[c]);
+                    sum.largest = std::max(sum.largest, std::abs(texel[c]));
+                }
+                ++sum.taps;
+            }
+        }
+    }
+    return sum;
 }
 
 std::vector<WeighedTexel> ellipse_weights(const Image& image, double s2, const Lookup& at) {

@@ -26,6 +26,9 @@ struct Footprint {
 };
 Footprint footprint(const Image& image, const SamplerState& sampler, const Lookup& at);
 
+/// A (bi/tri)linear lookup at a coordinate in double, between the levels that `lod` lies between, by `sampler`'s mip mode and wraps.
+Sample linear_sample(const Image& image, const SamplerState& sampler, double u, double v, double lod);
+
 /// The weights of the exact elliptical filter over level 0: the normal distribution of covariance S2*J*J^T + I/12 about the lookup,
 /// integrated over texel boxes by nested Gauss-Legendre panels, cut as texunit/ellipse.h says, normalised.
 struct WeighedTexel {

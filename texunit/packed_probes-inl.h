@@ -1,0 +1,187 @@
+// Anisotropic probes in one pass, texels in registers throughout: for 8-bit and block formats whose kernel is bilinear, which is where
+// anisotropic filtering spends its time. The mean is taken over the stored numerators and scaled at the end.
+#include "texunit/probe_blocks-inl.h"
+
+#include <hwy/highway.h>
+
+// Included once per instruction set (highway's guard for -inl.h files).
+#if defined(RAWTEXEL_TEXUNIT_PACKED_PROBES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAWTEXEL_TEXUNIT_PACKED_PROBES_INL_H_
+#undef RAWTEXEL_TEXUNIT_PACKED_PROBES_INL_H_
+#else
+#define RAWTEXEL_TEXUNIT_PACKED_PROBES_INL_H_
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace rawtexel::texunit {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr bool is_power_of_two(int32_t n) { return (n & (n - 1)) == 0; }
+
+/// Whether an axis wraps by a mask or by limits.
+HWY_INLINE bool wraps_without_division(Wrap wrap, int32_t extent) {
+    return wrap == Wrap::ClampToEdge || ((wrap == Wrap::Repeat || wrap == Wrap::MirroredRepeat) && is_power_of_two(extent));
+}
+
+/// Whether sample_packed_probes takes these lookups. Depends on texture and sampler alone, so that what is counted is what is sampled.
+HWY_INLINE bool takes_packed_probes(const Texture& texture, const SamplerState& sampler) {
+    const LevelTable& table = texture.levels();
+    return texture.texel_layout().storage == StorageClass::Packed32 && sampler.magnify == Kernel::Bilinear &&
+           sampler.minify == Kernel::Bilinear && sampler.precision == Precision::Exact &&
+           wraps_without_division(sampler.wrap_s, table.width[0]) && wraps_without_division(sampler.wrap_t, table.height[0]);
+}
+
+/// Indices of a probe's four texels, and its fractions.
+struct ProbeTexels {
+    IntVec upper_left, upper_right, lower_left, lower_right;
+    FloatVec x, y;
+};
+
+HWY_INLINE ProbeTexels texels_of(IntVec offset, IntVec left, IntVec right, IntVec upper, IntVec lower, FloatVec x, FloatVec y) {
+    const auto above = hn::Add(offset, upper), below = hn::Add(offset, lower);
+    return {hn::Add(above, left), hn::Add(above, right), hn::Add(below, left), hn::Add(below, right), x, y};
+}
+
+template <bool repeats>
+HWY_INLINE ProbeTexels probe_texels(const ProbeLevel& level, FloatVec place) {
+    if constexpr (!repeats) {
+        const ProbeTaps s = probe_taps(level.s, place), t = probe_taps(level.t, place);
+        return texels_of(level.offset, column_offset_v<kPacked>(s.first), column_offset_v<kPacked>(s.second),
+                         row_offset_v<kPacked>(t.first, level.row_stride), row_offset_v<kPacked>(t.second, level.row_stride), s.fraction,
+                         t.fraction);
+    }
+    const IntTag di;
+    IntVec column, row;
+    FloatVec x, y;
+    split_place(level.s, place, column, x);
+    split_place(level.t, place, row, y);
+    const auto left = column_offset_v<kPacked>(hn::And(column, level.s.last));
+    const auto upper = row_offset_v<kPacked>(hn::And(row, level.t.last), level.row_stride);
+    const auto next = [&](IntVec here, IntVec others, IntVec bits, FloatVec fraction) HWY_ATTR {
+        const auto after = hn::And(hn::Add(hn::Or(here, others), hn::Set(di, 1)), bits);
+        return hn::IfThenElse(is_zero(fraction), here, after);
+    };
+    const auto right = next(left, hn::Set(di, kRowsOfPage), level.column_bits, x);
+    const auto lower = next(upper, level.other_rows, level.row_bits, y);
+    return texels_of(level.offset, left, right, upper, lower, x, y);
+}
+
+using WordVec = hn::Vec<hn::RebindToUnsigned<IntTag>>;
+
+/// How numbers lie in a texel's word: a byte each, as in RGBA8 without a table, or as the layout says.
+enum class PackedFields { Bytes, Any };
+
+HWY_INLINE bool has_byte_fields(const TexelLayout& layout) {
+    for (int c = 0; c < 4; ++c) {
+        if (layout.mask[c] != 0xFF || layout.shift[c] != 8 * c || layout.table[c] != nullptr) return false;
+    }
+    return !layout.is_signed;
+}
+
+/// The stored number of channel c: a numerator, or what the format's table says.
+template <PackedFields fields, int c>
+HWY_INLINE FloatVec packed_number(const TexelLayout& layout, WordVec word) {
+    const FloatTag d;
+    const IntTag di;
+    const hn::RebindToUnsigned<IntTag> du;
+    if constexpr (fields == PackedFields::Bytes) {
+        const auto shifted = c == 0 ? word : hn::ShiftRight<8 * c>(word);
+        return hn::ConvertTo(d, hn::BitCast(di, c == 3 ? shifted : hn::And(shifted, hn::Set(du, 0xFF))));
+    }
+    const auto field = hn::BitCast(di, hn::And(hn::ShiftRightSame(word, layout.shift[c]), hn::Set(du, layout.mask[c])));
+    if (layout.table[c] != nullptr) return hn::GatherIndex(d, layout.table[c], field);
+    if (!layout.is_signed) return hn::ConvertTo(d, field);
+    // Flipping the sign bit and subtracting it extends the sign; two codes mean -1 (D3D11.3 3.2.3.4).
+    const auto sign = hn::Set(di, int32_t((layout.mask[c] + 1) >> 1));
+    const auto value = hn::Sub(hn::Xor(field, sign), sign);
+    return hn::ConvertTo(d, hn::Max(value, hn::Sub(hn::Set(di, 1), sign)));
+}
+
+struct PackedWords {
+    WordVec upper_left, upper_right, lower_left, lower_right;
+    FloatVec x, y;
+};
+
+/// One channel of a probe, bilinear, in stored numbers.
+template <PackedFields fields, int c>
+HWY_INLINE FloatVec filter_packed(const TexelLayout& layout, const PackedWords& words) {
+    const auto number = [&](WordVec word) HWY_ATTR { return packed_number<fields, c>(layout, word); };
+    const auto above = lerp(words.x, number(words.upper_left), number(words.upper_right));
+    const auto below = lerp(words.x, number(words.lower_left), number(words.lower_right));
+    return lerp(words.y, above, below);
+}
+
+/// The running mean over probes of one level, in stored numbers.
+template <bool repeats, PackedFields fields>
+HWY_INLINE void sample_packed_level(const Texture& texture, const ProbeLevel& level, const ProbePlaces& places, FloatVec (&mean)[4]) {
+    const hn::RebindToUnsigned<IntTag> du;
+    const TexelLayout& layout = texture.texel_layout();
+    const auto* const base = reinterpret_cast<const uint32_t*>(texture.texels());
+    auto m0 = hn::Zero(FloatTag()), m1 = m0, m2 = m0, m3 = m0;
+    for (int n = 0; n < places.most; ++n) {
+        const ProbeTexels at = probe_texels<repeats>(level, places.place(n));
+        const PackedWords words{hn::GatherIndex(du, base, at.upper_left), hn::GatherIndex(du, base, at.upper_right),
+                                hn::GatherIndex(du, base, at.lower_left), hn::GatherIndex(du, base, at.lower_right), at.x, at.y};
+        // The share of probe 0 is 1, so the mean starts with it.
+        const auto share = places.share(n);
+        m0 = lerp(share, m0, filter_packed<fields, 0>(layout, words));
+        m1 = lerp(share, m1, filter_packed<fields, 1>(layout, words));
+        m2 = lerp(share, m2, filter_packed<fields, 2>(layout, words));
+        m3 = lerp(share, m3, filter_packed<fields, 3>(layout, words));
+    }
+    mean[0] = m0, mean[1] = m1, mean[2] = m2, mean[3] = m3;
+}
+
+/// From the stored numbers of channel c to its value.
+HWY_INLINE FloatVec packed_value(const TexelLayout& layout, int c, FloatVec number) {
+    const FloatTag d;
+    if (layout.mask[c] == 0) return hn::Set(d, layout.bias[c]);
+    if (layout.table[c] != nullptr) return number;
+    return fused_multiply_add(number, hn::Set(d, layout.scale_hi[c]), hn::Mul(number, hn::Set(d, layout.scale_lo[c])));
+}
+
+/// All probes of the wave: means of both levels, mixed. Mixing their means is mixing every probe, for a lane's fraction is one.
+template <bool repeats, PackedFields fields>
+HWY_NOINLINE void sample_packed_wave(const Texture& texture, const SamplerState& sampler, const LevelChoice& choice,
+                                     const ProbeChoice& probes, const WavePosition& centre, WaveColor& out) {
+    const FloatTag d;
+    const ProbeTable& table = sampler.probe_variance > 0 ? gaussian_probes() : uniform_probes();
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        const ProbePlaces places(table, hn::Load(IntTag(), probes.count.lane + i));
+        const auto fraction = hn::Load(d, choice.fraction.lane + i);
+        FloatVec mean[4], coarse[4];
+        sample_packed_level<repeats, fields>(texture, probe_level(texture.levels(), sampler, centre, probes, choice.finer, i), places,
+                                             mean);
+        if (!hn::AllTrue(d, hn::Eq(fraction, hn::Zero(d)))) {
+            sample_packed_level<repeats, fields>(texture, probe_level(texture.levels(), sampler, centre, probes, choice.coarser, i), places,
+                                                 coarse);
+            for (int c = 0; c < 4; ++c) mean[c] = lerp(fraction, mean[c], coarse[c]);
+        }
+        for (int c = 0; c < 4; ++c) hn::Store(packed_value(texture.texel_layout(), c, mean[c]), d, out.channel[c].lane + i);
+    }
+}
+
+/// The weighted mean of each lane's probes, where takes_packed_probes says so; arguments as of sample_levels.
+template <class Count>
+HWY_INLINE void sample_packed_probes(Texture& texture, const SamplerState& sampler, const LevelChoice& choice, const ProbeChoice& probes,
+                                     const WavePosition& centre, WaveMask mask, Count& count, WaveColor& out) {
+    const auto ready = [&](const WaveInt& level) HWY_ATTR {
+        return (levels_read(level) & ~texture.ready_levels()) == 0 || surely_ready(texture, sampler, level, probes, centre);
+    };
+    if (Count::kCounts || !ready(choice.finer) || !ready(choice.coarser)) {
+        prepare_packed_probes(texture, sampler, choice, probes, centre, mask, count);
+    }
+    const bool repeats = sampler.wrap_s == Wrap::Repeat && sampler.wrap_t == Wrap::Repeat;
+    const bool bytes = has_byte_fields(texture.texel_layout());
+    if (repeats && bytes) return sample_packed_wave<true, PackedFields::Bytes>(texture, sampler, choice, probes, centre, out);
+    if (repeats) return sample_packed_wave<true, PackedFields::Any>(texture, sampler, choice, probes, centre, out);
+    if (bytes) return sample_packed_wave<false, PackedFields::Bytes>(texture, sampler, choice, probes, centre, out);
+    sample_packed_wave<false, PackedFields::Any>(texture, sampler, choice, probes, centre, out);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rawtexel::texunit
+HWY_AFTER_NAMESPACE();
+
+#endif  // RAWTEXEL_TEXUNIT_PACKED_PROBES_INL_H_
