@@ -183,24 +183,30 @@ HWY_INLINE V gaussian_weights(float sigma, int taps, V remainder, float* weights
 }
 
 /// The normal density at those texel centres that lie within 4 sigma, and at the nearest in any case, normalised. Taken relative to the
-/// nearest one: exp(-((m + delta)^2 - delta^2) / (2*sigma^2)) at the m-th texel after it, which lies delta after the coordinate.
+/// nearest one, whose centre lies delta after the coordinate: exp(-((m + delta)^2 - delta^2) / (2*sigma^2)) = exp(-m*(m + 2*delta)/…) at
+/// the m-th texel after it. `remainder` as above; `before` and `fraction` are split_between_centres of it. Returns the first texel like
+/// that does.
 template <class V>
-HWY_INLINE V gaussian_point_weights(float sigma, int taps, V nearest, V fraction, float* weights, size_t stride) {
+HWY_INLINE V gaussian_point_weights(float sigma, int taps, V remainder, V before, V fraction, float* weights, size_t stride) {
     const hn::DFromV<V> d;
     const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     // Texels ceil(fraction - 4*sigma) to floor(fraction + 4*sigma), taken apart so that nothing rounds.
     const float reach = 4 * sigma, whole = std::floor(reach), part = reach - whole;
+    const V nearest = hn::Sub(nearest_texel(remainder), before);
     const V lowest = hn::Sub(hn::IfThenElseZero(fraction > hn::Set(d, part), one), hn::Set(d, whole));
     const V last = hn::Add(hn::IfThenElseZero(fraction >= hn::Set(d, 1 - part), one), hn::Set(d, whole));
     const V first = hn::Min(lowest, nearest);
 
-    const V twice_delta = hn::Mul(hn::Set(d, 2.0f), hn::Sub(nearest, fraction));
+    // 2*delta is 1 - 2*remainder or -1 - 2*remainder; the whole part joins m, so that their sum rounds once.
+    const V whole_delta = hn::IfThenElse(remainder < zero, hn::Set(d, -1.0f), one);
+    const V twice = hn::Add(remainder, remainder);
     const V scale = hn::Set(d, float(-0.5 / (double(sigma) * double(sigma))));
     V sum = zero;
     for (int k = 0; k < taps; ++k) {
         const V texel = hn::Add(first, hn::Set(d, float(k)));
         const V m = hn::Sub(texel, nearest);
-        const V density = exp_negative(hn::Min(hn::Mul(hn::Mul(m, hn::Add(m, twice_delta)), scale), zero));
+        const V sum_of_offsets = hn::Sub(hn::Add(m, whole_delta), twice);
+        const V density = exp_negative(hn::Min(hn::Mul(hn::Mul(m, sum_of_offsets), scale), zero));
         const V weight = hn::IfThenElseZero(hn::Or(hn::Not(texel > last), hn::Eq(m, zero)), density);
         sum = hn::Add(sum, weight);
         hn::Store(weight, d, weights + size_t(k) * stride);
@@ -210,7 +216,7 @@ HWY_INLINE V gaussian_point_weights(float sigma, int taps, V nearest, V fraction
         float* const weight = weights + size_t(k) * stride;
         hn::Store(hn::Mul(hn::Load(d, weight), normalise), d, weight);
     }
-    return first;
+    return hn::Add(before, first);
 }
 
 /// Weights of `kernel` along one axis at the texel-space coordinate integer + `remainder` (scale_coordinate). Writes axis_taps(kernel) of
@@ -223,8 +229,7 @@ HWY_INLINE V kernel_weights(const Kernel& kernel, V remainder, float* weights, s
     V before, fraction;
     split_between_centres(remainder, before, fraction);
     if (kernel.kind == KernelKind::GaussianPoint) {
-        const V nearest = hn::Sub(nearest_texel(remainder), before);
-        return hn::Add(before, gaussian_point_weights(kernel.b, taps, nearest, fraction, weights, stride));
+        return gaussian_point_weights(kernel.b, taps, remainder, before, fraction, weights, stride);
     }
 
     const auto store = [&](const auto& weight, V first) HWY_ATTR {

@@ -55,13 +55,14 @@ void judge(const Ask& ask, const SamplerState& sampler, const LaneColour& colour
     if (unit > 1) {
         ++tally.other_decisions;
         const bool picks = sampler.precision == Precision::Gpu || axis_taps(sampler.magnify) == 1 || axis_taps(sampler.minify) == 1;
+        // One, or both, of two axes at a time.
+        const auto steps = [](int n) { return std::array<double, 2>{(n % 3 - 1) * 0x1p-20, (n / 3 - 1) * 0x1p-20}; };
+        constexpr int kUnmoved = 4;
         for (const double lambda : {-0x1p-20, 0.0, 0x1p-20}) {
-            for (const double cut : {-0x1p-20, 0.0, 0x1p-20}) {
-                unit = std::min(unit, excess(ask(reference::Shift{.lambda = lambda, .cut = cut}), within_taps, colour));
-                for (int step = 0; picks && cut == 0 && step < 9; ++step) {
-                    const std::array<double, 2> texel = {(step % 3 - 1) * 0x1p-20, (step / 3 - 1) * 0x1p-20};
-                    unit = std::min(unit, excess(ask(reference::Shift{.lambda = lambda, .texel = texel}), within_taps, colour));
-                }
+            for (int n = 0; n < 9; ++n) {
+                unit = std::min(unit, excess(ask(reference::Shift{.lambda = lambda, .cut = steps(n)}), within_taps, colour));
+                if (!picks || n == kUnmoved) continue;
+                unit = std::min(unit, excess(ask(reference::Shift{.lambda = lambda, .texel = steps(n)}), within_taps, colour));
             }
         }
     }

@@ -5,6 +5,7 @@
 
 #include "tests/reference/texunit/cube_reference.h"
 #include "tests/reference/texunit/sampler_reference.h"
+#include "tests/stress_scale.h"
 #include "tests/texunit/hashed_source.h"
 #include "tests/texunit/judged_lookup.h"
 #include "tests/texunit/lookup_draw.h"
@@ -83,7 +84,8 @@ TEST_P(SampleShapes, VolumesAgreeWithTheReference) {
         const auto texture = hashed_texture(GetParam(), {.width = extents[0], .height = extents[1], .depth = extents[2]});
         const reference::ShapedImage image = image_of(*texture);
         LookupDraw draw(extents, texture->shape().levels, uint32_t(extents[0]) + uint32_t(GetParam()));
-        for (const Kernel& kernel : every_kernel()) {
+        for (int n = 0; n < stress_scale() * int(every_kernel().size()); ++n) {
+            const Kernel& kernel = every_kernel()[size_t(n) % every_kernel().size()];
             if (axis_taps(kernel) > 6 && extents[0] != 5) continue;  // hundreds of taps
             SamplerState sampler = draw_sampler(draw, kernel, Wrap(draw.below(5)));
             if (axis_taps(sampler.magnify) > 6 || axis_taps(sampler.minify) > 6) sampler.mip = MipMode::Nearest;
@@ -109,7 +111,7 @@ TEST_P(SampleShapes, CubeMapsAgreeWithTheReference) {
         const reference::ShapedImage image = image_of(*texture);
         LookupDraw draw({extent, extent, 1}, texture->shape().levels, uint32_t(extent) + uint32_t(GetParam()));
         for (const Kernel& kernel : every_kernel()) {
-            for (int n = 0; n < 2; ++n) {
+            for (int n = 0; n < 2 * stress_scale(); ++n) {
                 SamplerState sampler = draw_sampler(draw, kernel, Wrap::ClampToBorder);
                 if (draw.below(4) == 0) sampler.precision = Precision::Gpu;
                 const auto lookups = draw_lookups([&] { return draw.next_direction(); });

@@ -130,8 +130,8 @@ Sample sample_layer(const ShapedImage& image, const SamplerState& sampler, const
     Sample result;
     const Levels levels = choose_levels(sampler, image.levels, {at.dudx * w, at.dvdx * h, 0}, {at.dudy * w, at.dvdy * h, 0}, shift.lambda);
     add_levels(sampler, levels, result, [&](const Kernel& kernel, int level, double weight) {
-        const auto columns = axis_taps(kernel, sampler, sampler.wrap_s, at.u, extent_of(image.width, level), shift.texel[0], shift.cut);
-        const auto rows = axis_taps(kernel, sampler, sampler.wrap_t, at.v, extent_of(image.height, level), shift.texel[1], shift.cut);
+        const auto columns = axis_taps(kernel, sampler, sampler.wrap_s, at.u, extent_of(image.width, level), shift.texel[0], shift.cut[0]);
+        const auto rows = axis_taps(kernel, sampler, sampler.wrap_t, at.v, extent_of(image.height, level), shift.texel[1], shift.cut[1]);
         for (const AxisTap& row : rows) {
             for (const AxisTap& column : columns) {
                 const bool border = row.texel == kBorder || column.texel == kBorder;
@@ -158,10 +158,10 @@ Sample sample_volume(const ShapedImage& image, const SamplerState& sampler, cons
     add_levels(
         sampler, choose_levels(sampler, image.levels, dx, dy, shift.lambda), result, [&](const Kernel& kernel, int level, double weight) {
             const auto columns =
-                axis_taps(kernel, sampler, sampler.wrap_s, at.position[0], extent_of(image.width, level), shift.texel[0], shift.cut);
+                axis_taps(kernel, sampler, sampler.wrap_s, at.position[0], extent_of(image.width, level), shift.texel[0], shift.cut[0]);
             const auto rows =
-                axis_taps(kernel, sampler, sampler.wrap_t, at.position[1], extent_of(image.height, level), shift.texel[1], shift.cut);
-            const auto slices = axis_taps(kernel, sampler, sampler.wrap_r, at.position[2], extent_of(image.depth, level), 0, shift.cut);
+                axis_taps(kernel, sampler, sampler.wrap_t, at.position[1], extent_of(image.height, level), shift.texel[1], shift.cut[1]);
+            const auto slices = axis_taps(kernel, sampler, sampler.wrap_r, at.position[2], extent_of(image.depth, level), 0, shift.cut[0]);
             for (const AxisTap& slice : slices) {
                 for (const AxisTap& row : rows) {
                     for (const AxisTap& column : columns) {
@@ -183,13 +183,13 @@ Sample sample_cube(const ShapedImage& image, const SamplerState& sampler, const 
     const Levels levels = choose_levels(sampler, image.levels, {at.dsdx * n, at.dtdx * n, 0}, {at.dsdy * n, at.dtdy * n, 0}, shift.lambda);
     add_levels(sampler, levels, result, [&](const Kernel& kernel, int level, double weight) {
         const int size = extent_of(image.width, level);
-        const auto taps = [&](double s, double moved) {
-            auto found = kernel_taps(kernel, snapped(sampler, s * size + moved), shift.cut);
+        const auto taps = [&](double s, double moved, double cut_shift) {
+            auto found = kernel_taps(kernel, snapped(sampler, s * size + moved), cut_shift);
             // A single texel stays on the face.
             if (kernel == Kernel::Nearest) found[0].texel = std::clamp<long long>(found[0].texel, 0, size - 1);
             return found;
         };
-        const auto columns = taps(at.s, shift.texel[0]), rows = taps(at.t, shift.texel[1]);
+        const auto columns = taps(at.s, shift.texel[0], shift.cut[0]), rows = taps(at.t, shift.texel[1], shift.cut[1]);
         for (const KernelTap& row : rows) {
             for (const KernelTap& column : columns) {
                 const auto texels = cube_texels(at.face, column.texel, row.texel, size);

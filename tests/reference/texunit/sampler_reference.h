@@ -34,7 +34,7 @@ struct Lookup3 {
 /// Moves thresholds: with it a test asks what the other side of a discrete decision would give.
 struct Shift {
     double lambda = 0;              ///< added to the level of detail
-    double cut = 0;                 ///< added to the reach of gaussian-point, texels
+    std::array<double, 2> cut{};    ///< added to the reach of gaussian-point along s and t, texels
     std::array<double, 2> texel{};  ///< added to texel-space coordinates along s and t, before they are snapped for Precision::Gpu
 };
 
