@@ -34,11 +34,18 @@ struct CommandLine::Impl {
     std::string usage, summary;
     CLI::App app;
     std::vector<HelpEntry> entries;
+    struct ValuedFlag {
+        std::string name;
+        Reader read;
+        std::optional<std::string> given;  ///< the word
+    };
     std::optional<Arguments> arguments;
+    std::vector<ValuedFlag> valued_flags;
     bool help = false;
 
     std::vector<std::string> option_names() const;
     void check_for_repeats() const;
+    std::vector<std::string> take_valued_flags(const std::vector<std::string>& words);
     void take_remaining(const std::vector<std::string>& remaining);
     [[noreturn]] void throw_unknown_option(const std::string& word) const;
 };
@@ -57,6 +64,25 @@ void CommandLine::Impl::check_for_repeats() const {
         if (option->get_items_expected_max() > 0 && option->results().size() > 1)
             throw UsageError(option->get_name() + ": given more than once ('" + option->results()[0] + "' and '" + option->results()[1] +
                              "')");
+}
+
+// Reads the words that are valued flags and returns the others.
+std::vector<std::string> CommandLine::Impl::take_valued_flags(const std::vector<std::string>& words) {
+    std::vector<std::string> others;
+    const auto end = std::ranges::find(words, "--");
+    for (auto word = words.begin(); word != end; ++word) {
+        const auto flag = std::ranges::find_if(
+            valued_flags, [&](const ValuedFlag& each) { return *word == each.name || word->starts_with(each.name + ":"); });
+        if (flag == valued_flags.end()) {
+            others.push_back(*word);
+            continue;
+        }
+        if (flag->given) throw UsageError(flag->name + ": given more than once ('" + *flag->given + "' and '" + *word + "')");
+        flag->given = *word;
+        flag->read(word->size() > flag->name.size() ? word->substr(flag->name.size() + 1) : "");
+    }
+    others.insert(others.end(), end, words.end());
+    return others;
 }
 
 void CommandLine::Impl::throw_unknown_option(const std::string& word) const {
@@ -110,6 +136,12 @@ void CommandLine::flag(const std::string& names, const std::string& help, bool& 
     impl_->entries.push_back({{}, names, help});
 }
 
+void CommandLine::flag_with_value(const std::string& name, const std::string& value, const std::string& help, Reader read) {
+    impl_->app.add_flag(name);  // so that misspelt options find it
+    impl_->valued_flags.push_back({name, std::move(read), {}});
+    impl_->entries.push_back({{}, name + "[:" + value + "]", help});
+}
+
 void CommandLine::arguments(std::string name, std::string help, size_t least, size_t most, std::vector<std::string>& words) {
     impl_->entries.push_back({{}, name, std::move(help)});
     impl_->arguments = Impl::Arguments{std::move(name), least, most, &words};
@@ -117,7 +149,7 @@ void CommandLine::arguments(std::string name, std::string help, size_t least, si
 
 bool CommandLine::parse(const std::vector<std::string>& words) {
     if (std::ranges::any_of(words, [](const std::string& word) { return word == "--help" || word == "-h"; })) return false;
-    std::vector<std::string> reversed = separate_short_values(words);
+    std::vector<std::string> reversed = separate_short_values(impl_->take_valued_flags(words));
     std::ranges::reverse(reversed);
     try {
         impl_->app.parse(reversed);

@@ -28,6 +28,8 @@ class CommandLine {
     /// `names` such as "-o,--output"; `value` such as "FILE" for the help. Given twice is an error. `read` may throw UsageError.
     void option(const std::string& names, const std::string& value, const std::string& help, Reader read);
     void flag(const std::string& names, const std::string& help, bool& set);
+    /// A flag that may carry a value behind a colon: "--ewa" or "--ewa:0.25". `read` gets the value, empty without one.
+    void flag_with_value(const std::string& name, const std::string& value, const std::string& help, Reader read);
     /// The words that are no options, at least `least` and at most `most` of them. `name` is for help and errors.
     void arguments(std::string name, std::string help, size_t least, size_t most, std::vector<std::string>& words);
 

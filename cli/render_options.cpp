@@ -1,5 +1,6 @@
 #include "cli/render_options.h"
 
+#include "cli/footprint_options.h"
 #include "cli/limits.h"
 #include "cli/option_values.h"
 #include "cli/texture_options.h"
@@ -107,6 +108,7 @@ void declare_lookup_options(CommandLine& line, LookupOptions& lookup) {
     line.option("--mip-storage", "source|float", "generated levels rounded to the image's own format (the default), or kept in float",
                 [&](const std::string& text) { lookup.mip_storage = parse_mip_storage(text); });
     declare_texture_options(line, lookup.files);
+    declare_footprint_options(line, lookup.footprint);
 }
 
 void declare_sample_options(CommandLine& line, SampleOptions& samples) {

@@ -5,6 +5,7 @@
 #include "cli/command_line.h"
 #include "cli/progress.h"
 #include "shading/display.h"
+#include "shading/footprint_options.h"
 #include "shading/render.h"
 #include "texunit/containers.h"
 #include "texunit/simd.h"
@@ -67,6 +68,7 @@ struct LightOptions {
 struct LookupOptions {
     std::optional<texunit::Kernel> filter;  ///< unset: what the scene's samplers say
     std::optional<texunit::MipMode> mip;
+    shading::FootprintOptions footprint;
     texunit::MipStorage mip_storage = texunit::MipStorage::Source;
     texunit::ContainerOptions files;
 };

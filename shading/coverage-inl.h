@@ -6,9 +6,9 @@
 #define RAWTEXEL_SHADING_COVERAGE_INL_H_
 #endif
 
-#include "raster/interpolate-inl.h"
 #include "raster/visibility.h"
 #include "shading/coordinates-inl.h"
+#include "shading/derivatives-inl.h"
 #include "shading/lookup-inl.h"
 #include "shading/pixel_rect.h"
 #include "texunit/random-inl.h"
@@ -36,8 +36,9 @@ HWY_INLINE WaveMask lanes_inside(const PixelRect& rect, int x, int y) {
 template <class Count>
 class AlphaCoverage {
   public:
-    AlphaCoverage(const raster::Frame& frame, std::span<const DrawState> draws, const PixelRect& visible, uint32_t seed)
-        : frame_(frame), draws_(draws), visible_(visible), seed_(seed) {}
+    AlphaCoverage(const raster::Frame& frame, std::span<const DrawState> draws, const PixelRect& visible, uint32_t seed,
+                  const DerivativeRule& derivatives = {})
+        : frame_(frame), draws_(draws), visible_(visible), seed_(seed), derivatives_(derivatives) {}
 
     void begin_sample(uint32_t sample) { sample_ = sample; }
     /// `texels_of(x, y)`: where the block's requested texels are counted.
@@ -63,7 +64,7 @@ class AlphaCoverage {
         if (map.texture || !mesh.colors.empty()) {
             alignas(64) uint32_t setup_index[texunit::kWaveLanes];
             for (uint32_t& index : setup_index) index = candidate.setup_index;
-            raster::HWY_NAMESPACE::barycentric_wave(frame_, setup_index, candidate.offset, candidate.x, candidate.y, mask, weights_);
+            find_barycentrics(derivatives_, {frame_, setup_index, candidate.offset, candidate.x, candidate.y}, mask, weights_);
             clamp_weights(weights_);
         }
         if (map.texture) {
@@ -105,6 +106,7 @@ class AlphaCoverage {
     std::span<const DrawState> draws_;
     PixelRect visible_;
     uint32_t seed_;
+    DerivativeRule derivatives_;
     uint32_t sample_ = 0;
     raster::BarycentricWave weights_{};
     texunit::WaveCoordinates coordinates_{};

@@ -49,6 +49,7 @@ MaterialState make_material_state(const Scene& scene, uint32_t index, const Look
         lookup.sampler = map.sampler;
         if (overrides.filter) lookup.sampler.magnify = lookup.sampler.minify = *overrides.filter;
         if (overrides.mip) lookup.sampler.mip = *overrides.mip;
+        override_footprint(overrides.footprint, lookup.sampler);
         lookup.coordinates = coordinates_of(state, map);
     }
     return state;

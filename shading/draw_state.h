@@ -2,6 +2,7 @@
 #pragma once
 
 #include "raster/frame.h"
+#include "shading/footprint_options.h"
 #include "shading/scene.h"
 
 #include <array>
@@ -51,6 +52,7 @@ struct DrawState {
 struct LookupOverrides {
     std::optional<texunit::Kernel> filter;
     std::optional<texunit::MipMode> mip;
+    FootprintOptions footprint;
     bool occlusion = true;  ///< false: nothing reads occlusion maps
 };
 

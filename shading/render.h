@@ -4,6 +4,7 @@
 #include "raster/frame.h"
 #include "shading/aov.h"
 #include "shading/executor.h"
+#include "shading/footprint_options.h"
 #include "shading/image.h"
 #include "shading/lighting.h"
 #include "shading/pixel_sampling.h"
@@ -35,6 +36,7 @@ struct RenderOptions {
     /// Replace every map's own sampler; nullopt: what the scene says.
     std::optional<texunit::Kernel> filter;
     std::optional<texunit::MipMode> mip;
+    FootprintOptions footprint;
     std::optional<glm::vec3> background;  ///< nullopt: the environment, black where there is none
     std::vector<Aov> aovs;
     bool coverage = false;  ///< fill RenderResult::coverage

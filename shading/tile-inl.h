@@ -45,7 +45,7 @@ class TileRenderer {
           tile_y_(tile_y),
           tile_size_(frame_.options().tile_size),
           waves_x_(tile_size_ / texunit::kWaveWidth),
-          coverage_(frame_, inputs.draws, inputs.visible, inputs.seed) {}
+          coverage_(frame_, inputs.draws, inputs.visible, inputs.seed, inputs.derivatives) {}
 
     void render() {
         using Clock = std::chrono::steady_clock;
@@ -184,7 +184,7 @@ class TileRenderer {
 
     /// One masked pass per draw that the wave sees.
     void shade_surfaces(WaveMask surface) {
-        raster::HWY_NAMESPACE::barycentric_wave(frame_, wave_.setup_index, wave_.offset, wave_.x, wave_.y, surface, weights_);
+        find_barycentrics(inputs_.derivatives, {frame_, wave_.setup_index, wave_.offset, wave_.x, wave_.y}, surface, weights_);
         clamp_weights(weights_);
         for (WaveMask rest = surface; rest != 0;) {
             const uint32_t first = wave_.setup_index[std::countr_zero(rest)];

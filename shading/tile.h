@@ -30,6 +30,7 @@ struct TileInputs {
     PixelFilter pixel_filter = PixelFilter::Box;
     PixelJitter pixel_jitter = PixelJitter::Frame;
     uint32_t seed = 0;
+    DerivativeRule derivatives;
     std::optional<glm::vec3> background;  ///< nullopt: the environment, black where there is none
     TilePlanes planes;
     bool count = false;

@@ -150,7 +150,7 @@ TEST(RenderOptions, HelpSaysTheRangeOfEveryNumber) {
 }
 
 TEST(RenderOptions, WhatLaterVersionsMayKnowIsUnknownNow) {
-    for (const std::string option : {"--aniso", "--ewa", "--estimator", "--noise", "--adaptive", "--frames", "--cache", "--skip"})
+    for (const std::string option : {"--estimator", "--noise", "--adaptive", "--frames", "--cache", "--skip"})
         EXPECT_TRUE(error_of({option, "1"}).starts_with("unknown option '" + option + "', the nearest is '--")) << error_of({option, "1"});
     for (const std::string filter : {"mitchell", "gaussian:0.5", "lanczos3"})
         EXPECT_TRUE(error_of({"--filter", filter}).starts_with("--filter: unknown value '" + filter + "'"));

@@ -84,7 +84,8 @@ TEST(Usage, HelpIsComplete) {
     const std::initializer_list<std::pair<const char*, std::vector<const char*>>> commands{
         {"render", {"--size",         "--crop",         "--camera",      "--orbit",     "--eye",         "--target",
                     "--fov",          "--light",        "--ambient",     "--shadows",   "--environment", "--environment-reflections",
-                    "--background",   "--peer-shading", "--filter",      "--mip",       "--spp",         "--pixel-filter",
+                    "--background",   "--peer-shading", "--filter",      "--mip",       "--aniso",       "--ewa",
+                    "--lod-rule",     "--lod-bias",     "--derivatives", "--footprint", "--spp",         "--pixel-filter",
                     "--pixel-jitter", "--seed",         "--mip-storage", "--exposure",  "--tonemap",     "--transfer",
                     "--aov",          "--count",        "--stats",       "--repeat",    "--threads",     "--tile-size",
                     "--simd",         "--progress",     "--scenario",    "-o,--output", "SCENE",         "--help"}},

@@ -1,0 +1,57 @@
+#include "cli/footprint_options.h"
+
+#include "cli/usage_error.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace rawtexel::cli {
+namespace {
+
+shading::FootprintOptions parsed(const std::vector<std::string>& words) {
+    shading::FootprintOptions footprint;
+    CommandLine line("test", "");
+    declare_footprint_options(line, footprint);
+    line.parse(words);
+    return footprint;
+}
+
+std::string complaint(const std::vector<std::string>& words) {
+    try {
+        parsed(words);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(FootprintOptions, EveryOneReachesItsMember) {
+    EXPECT_EQ(parsed({}), shading::FootprintOptions{});
+    const shading::FootprintOptions all = parsed(
+        {"--aniso", "16:0.25", "--ewa:0.5", "--lod-rule", "exact", "--lod-bias", "-1.5", "--derivatives", "quad", "--footprint", "sample"});
+    EXPECT_EQ(all.probes, 16);
+    EXPECT_EQ(all.probe_variance, 0.25f);
+    EXPECT_EQ(all.ellipse, 0.5f);
+    EXPECT_EQ(all.lod_rule, texunit::LodRule::Exact);
+    EXPECT_EQ(all.lod_bias, -1.5f);
+    EXPECT_EQ(all.derivatives, shading::Derivatives::Quad);
+    EXPECT_EQ(all.area, shading::FootprintArea::Sample);
+    EXPECT_EQ(print_anisotropy(all), "16:0.25");
+    EXPECT_EQ(parsed({"--ewa"}).ellipse, 1.0f / 6);
+    EXPECT_EQ(print_anisotropy(parsed({"--aniso", "64"})), "64");
+}
+
+TEST(FootprintOptions, SayWhatIsWrongAndWhatIsAllowed) {
+    EXPECT_NE(complaint({"--aniso", "65"}).find("64"), std::string::npos) << complaint({"--aniso", "65"});
+    EXPECT_NE(complaint({"--aniso", "16:0"}).find("0.001"), std::string::npos) << complaint({"--aniso", "16:0"});
+    EXPECT_NE(complaint({"--aniso", "16:"}), "");
+    EXPECT_NE(complaint({"--ewa:x"}).find("--ewa"), std::string::npos) << complaint({"--ewa:x"});
+    EXPECT_NE(complaint({"--ewa", "--ewa:0.2"}).find("more than once"), std::string::npos);
+    EXPECT_NE(complaint({"--ewaa"}).find("'--ewa'"), std::string::npos) << complaint({"--ewaa"});
+    EXPECT_NE(complaint({"--lod-rule", "d3"}).find("'d3d'"), std::string::npos);
+    EXPECT_NE(complaint({"--lod-bias", "17"}).find("16"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rawtexel::cli
