@@ -122,8 +122,8 @@ HWY_INLINE Line variance_line(const Axes& axes, IntVec exponent, const SamplerSt
     const auto count = round_up(line.probes);
     const auto gap = hn::Mul(hn::GatherIndex(d, gaussian_probes().gap.data(), count), hn::Set(d, 1 / kWidestGap));
     const auto single = hn::RebindMask(d, hn::Eq(count, hn::Set(di, 1)));
-    const auto filled = hn::IfThenElse(single, hn::Add(wanted_minor, hn::Mul(wanted_extra, hn::Set(d, 0.5f))),
-                                       hn::Mul(hn::Mul(gap, gap), wanted_extra));
+    const auto filled =
+        hn::IfThenElse(single, hn::Add(wanted_minor, hn::Mul(wanted_extra, hn::Set(d, 0.5f))), hn::Mul(hn::Mul(gap, gap), wanted_extra));
     const auto level_variance = hn::Max(filled, wanted_minor);
     const auto extra = hn::Max(hn::Sub(wanted_extra, hn::Sub(level_variance, wanted_minor)), zero);
 
@@ -140,8 +140,8 @@ HWY_INLINE Line variance_line(const Axes& axes, IntVec exponent, const SamplerSt
 }
 
 /// Chooses levels and probes for all lanes of `at`; sampler.probes > 1.
-HWY_NOINLINE inline void select_footprint(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at, LevelChoice& choice,
-                                   ProbeChoice& probes) {
+HWY_NOINLINE inline void select_footprint(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at,
+                                          LevelChoice& choice, ProbeChoice& probes) {
     const FloatTag d;
     const IntTag di;
     const auto width = hn::Set(d, float(table.width[0])), height = hn::Set(d, float(table.height[0]));
@@ -156,8 +156,8 @@ HWY_NOINLINE inline void select_footprint(const LevelTable& table, const Sampler
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
         const ScaledJacobian j = scale_jacobian(at, i, width, height);
         const Axes axes = by_variance || sampler.lod_rule == LodRule::Exact ? singular_axes(j) : derivative_axes(j);
-        Line line = by_variance ? variance_line(axes, j.exponent, sampler, rules)
-                                : ratio_line(axes, j.exponent, rules, hn::ConvertTo(d, most));
+        Line line =
+            by_variance ? variance_line(axes, j.exponent, sampler, rules) : ratio_line(axes, j.exponent, rules, hn::ConvertTo(d, most));
         const auto magnified = magnifies(by_variance ? bound_lod(rules, lod_of_squared(axes.minor2, j.exponent)) : line.lod);
         // By variance even a magnified footprint reads a little of level 1; a kernel of its own reads the finest level alone.
         if (by_variance && !one_kernel) line.lod = select(magnified, spread(LodValue{0, 0.0f}), line.lod);

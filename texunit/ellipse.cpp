@@ -8,20 +8,18 @@ namespace rawtexel::texunit {
 namespace {
 
 // Abramowitz and Stegun, table 25.4, moved from [-1, 1] to [0, 1].
-constexpr Quadrature kFourNodes = {
-    4,
-    {0.069431844202973712, 0.330009478207571868, 0.669990521792428132, 0.930568155797026288},
-    {0.173927422568726929, 0.326072577431273071, 0.326072577431273071, 0.173927422568726929}};
+constexpr Quadrature kFourNodes = {4,
+                                   {0.069431844202973712, 0.330009478207571868, 0.669990521792428132, 0.930568155797026288},
+                                   {0.173927422568726929, 0.326072577431273071, 0.326072577431273071, 0.173927422568726929}};
 constexpr Quadrature kSixNodes = {
     6,
     {0.033765242898423987, 0.169395306766867743, 0.380690406958401546, 0.619309593041598454, 0.830604693233132257, 0.966234757101576013},
     {0.085662246189585173, 0.180380786524069304, 0.233956967286345524, 0.233956967286345524, 0.180380786524069304, 0.085662246189585173}};
-constexpr Quadrature kEightNodes = {
-    8,
-    {0.019855071751231884, 0.101666761293186630, 0.237233795041835507, 0.408282678752175098, 0.591717321247824902, 0.762766204958164493,
-     0.898333238706813370, 0.980144928248768116},
-    {0.050614268145188130, 0.111190517226687235, 0.156853322938943644, 0.181341891689180991, 0.181341891689180991, 0.156853322938943644,
-     0.111190517226687235, 0.050614268145188130}};
+constexpr Quadrature kEightNodes = {8,
+                                    {0.019855071751231884, 0.101666761293186630, 0.237233795041835507, 0.408282678752175098,
+                                     0.591717321247824902, 0.762766204958164493, 0.898333238706813370, 0.980144928248768116},
+                                    {0.050614268145188130, 0.111190517226687235, 0.156853322938943644, 0.181341891689180991,
+                                     0.181341891689180991, 0.156853322938943644, 0.111190517226687235, 0.050614268145188130}};
 
 /// Enough nodes for 2^-24 of the peak: a texel is `sigmas` standard deviations high where the Gaussian falls fastest.
 const Quadrature& quadrature_for(double sigmas) { return sigmas <= 1 ? kFourNodes : sigmas <= 2 ? kSixNodes : kEightNodes; }
@@ -112,8 +110,8 @@ Ellipse make_ellipse(const LevelTable& table, const SamplerState& sampler, const
             set_covariance(table, double(sampler.ellipse), shear, e.level + 1, e);
         }
         const auto l = size_t(e.level);
-        const bool one_texel = table.width[l] == 1 && table.height[l] == 1 && sampler.wrap_s != Wrap::ClampToBorder &&
-                               sampler.wrap_t != Wrap::ClampToBorder;
+        const bool one_texel =
+            table.width[l] == 1 && table.height[l] == 1 && sampler.wrap_s != Wrap::ClampToBorder && sampler.wrap_t != Wrap::ClampToBorder;
         if (one_texel) {
             e.a = e.c = 1.0 / 12, e.b = 0, e.determinant = 1.0 / 144;
         } else {

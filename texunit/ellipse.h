@@ -27,14 +27,14 @@ struct Quadrature {
 /// loses (2*4^l - 3)/12 texels^2 of level 0, as far as a standard deviation of sqrt(1/12) texels of the level remains along the minor axis.
 struct Ellipse {
     int level = 0;
-    int64_t column = 0, row = 0;        ///< texel that holds the centre, not wrapped
-    double x = 0, y = 0;                ///< centre within that texel, [0, 1)
+    int64_t column = 0, row = 0;  ///< texel that holds the centre, not wrapped
+    double x = 0, y = 0;          ///< centre within that texel, [0, 1)
     double a = 1.0 / 12, b = 0, c = 1.0 / 12;
-    double determinant = 1.0 / 144;     ///< a*c - b*b, from the eigenvalues: thin ellipses would cancel it away
-    double slope = 0;                   ///< b/c: how far the rows' centres move per texel
-    double inverse_sigma = 0;           ///< of x within a row
-    int first_row = 0, last_row = 0;    ///< from `row`
-    const Quadrature* across = nullptr; ///< for the integral over a row's height
+    double determinant = 1.0 / 144;      ///< a*c - b*b, from the eigenvalues: thin ellipses would cancel it away
+    double slope = 0;                    ///< b/c: how far the rows' centres move per texel
+    double inverse_sigma = 0;            ///< of x within a row
+    int first_row = 0, last_row = 0;     ///< from `row`
+    const Quadrature* across = nullptr;  ///< for the integral over a row's height
 };
 
 /// One lookup, derivatives as in WaveCoordinates.

@@ -44,21 +44,22 @@ HWY_INLINE V normal_tail(V z) {
     const V one = hn::Set(d, 1.0f);
     const V t = hn::Div(one, hn::Add(one, hn::Mul(hn::Set(d, 0.3f), z)));
     V series = hn::Set(d, 0.03170533718f);
-    for (const float term : {-0.1353225888f, 0.1552414076f, 0.01235022517f, 0.07700051554f, 0.1248102088f, 0.1134981503f, 0.1207960362f,
-                             -7.92852694e-05f}) {
+    for (const float term :
+         {-0.1353225888f, 0.1552414076f, 0.01235022517f, 0.07700051554f, 0.1248102088f, 0.1134981503f, 0.1207960362f, -7.92852694e-05f}) {
         series = hn::Add(hn::Mul(series, t), hn::Set(d, term));
     }
     return hn::Mul(series, exp_of_negative(hn::Mul(hn::Mul(z, z), hn::Set(d, 0.5f))));
 }
 
-/// Probability of [low, low + width] under the standard normal distribution. Taken on the side of the smaller tail, where it keeps its bits.
+/// Probability of [low, low + width] under the standard normal distribution. Taken on the side of the smaller tail, where it keeps its
+/// bits.
 template <class V>
 HWY_INLINE V normal_probability(V low, V width) {
     const hn::DFromV<V> d;
     const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const V high = hn::Add(low, width);
     const auto right = hn::Add(low, high) > zero;
-    const V near = hn::IfThenElse(right, low, hn::Neg(high));   // of the mirrored interval [near, far], far >= |near|
+    const V near = hn::IfThenElse(right, low, hn::Neg(high));  // of the mirrored interval [near, far], far >= |near|
     const V far = hn::IfThenElse(right, high, hn::Neg(low));
     const V tail = normal_tail(hn::Abs(near));
     const V above_near = hn::IfThenElse(near < zero, hn::Sub(one, tail), tail);
@@ -82,15 +83,16 @@ HWY_INLINE void ellipse_weights(const Ellipse& ellipse, const EllipseChunk& chun
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
         auto sum = hn::Zero(d);
         for (int k = 0; k < ellipse.across->count; ++k) {
-            const auto density = hn::Mul(hn::Set(d, float(ellipse.across->weight[size_t(k)])), exp_of_negative(hn::Load(d, chunk.depth[k].lane + i)));
+            const auto density =
+                hn::Mul(hn::Set(d, float(ellipse.across->weight[size_t(k)])), exp_of_negative(hn::Load(d, chunk.depth[k].lane + i)));
             sum = hn::Add(sum, hn::Mul(density, normal_probability(hn::Load(d, chunk.edge[k].lane + i), width)));
         }
         hn::Store(hn::IfThenElseZero(lanes_of(d, used, i), sum), d, weight.lane + i);
     }
 }
 
-/// Weighted sums over the texels of an ellipse, 32 at a time: of the weights, and of each channel's difference from a base that is the first
-/// texel, so that a constant comes back bit for bit.
+/// Weighted sums over the texels of an ellipse, 32 at a time: of the weights, and of each channel's difference from a base that is the
+/// first texel, so that a constant comes back bit for bit.
 struct EllipseSums {
     WaveFloat weight{}, difference[4]{}, least[4], most[4];
     float base[4];
@@ -172,7 +174,8 @@ HWY_INLINE void append_texels(const Ellipse& ellipse, int row, int column, int c
 
 /// Calls use(chunk) for all texels of the ellipse, row by row.
 template <class Use>
-HWY_INLINE void for_each_chunk(const LevelTable& table, const SamplerState& sampler, const Ellipse& ellipse, EllipseChunk& chunk, const Use& use) {
+HWY_INLINE void for_each_chunk(const LevelTable& table, const SamplerState& sampler, const Ellipse& ellipse, EllipseChunk& chunk,
+                               const Use& use) {
     const auto level = size_t(ellipse.level);
     WrapWalk rows(sampler.wrap_t, ellipse.row + ellipse.first_row, table.height[level]);
     chunk.used = 0;
@@ -294,14 +297,13 @@ HWY_NOINLINE void sample_ellipses_stored(Texture& texture, const SamplerState& s
     }
 }
 
-/// Filters the lanes of `mask`, which is not 0, by their ellipses (sampler.ellipse > 0); other lanes repeat the first of them. `slice`: array
-/// layers, or null. `level` gets the level read.
+/// Filters the lanes of `mask`, which is not 0, by their ellipses (sampler.ellipse > 0); other lanes repeat the first of them. `slice`:
+/// array layers, or null. `level` gets the level read.
 template <class Count>
 HWY_INLINE void sample_ellipses(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, const WaveInt* slice,
                                 WaveMask mask, Count& count, WaveColor& out, WaveFloat& level) {
-    const auto sample = [&]<StorageClass storage>() HWY_ATTR {
-        sample_ellipses_stored<storage>(texture, sampler, at, slice, mask, listeners(count), out, level);
-    };
+    const auto sample = [&]<StorageClass storage>()
+                            HWY_ATTR { sample_ellipses_stored<storage>(texture, sampler, at, slice, mask, listeners(count), out, level); };
     switch (texture.texel_layout().storage) {
         case StorageClass::Packed32: sample.template operator()<StorageClass::Packed32>(); break;
         case StorageClass::Packed64: sample.template operator()<StorageClass::Packed64>(); break;

@@ -46,9 +46,7 @@ struct ScaledJacobian {
 };
 
 /// 2^n for -126 <= n <= 127.
-HWY_INLINE FloatVec power_of_two(IntVec n) {
-    return hn::BitCast(FloatTag(), hn::ShiftLeft<23>(hn::Add(n, hn::Set(IntTag(), 127))));
-}
+HWY_INLINE FloatVec power_of_two(IntVec n) { return hn::BitCast(FloatTag(), hn::ShiftLeft<23>(hn::Add(n, hn::Set(IntTag(), 127)))); }
 
 inline constexpr int kBeyondAllLevels = 4096;  ///< exponent of a footprint that has no size
 
@@ -202,8 +200,13 @@ struct LodRules {
     int32_t last_level;
 };
 HWY_INLINE LodRules lod_rules(const LevelTable& table, const SamplerState& sampler) {
-    return {split_lod(sampler.lod_bias), split_lod(sampler.min_lod), split_lod(sampler.max_lod), sampler.lod_bias != 0.0f,
-            sampler.precision == Precision::Gpu, sampler.mip, table.levels - 1};
+    return {split_lod(sampler.lod_bias),
+            split_lod(sampler.min_lod),
+            split_lod(sampler.max_lod),
+            sampler.lod_bias != 0.0f,
+            sampler.precision == Precision::Gpu,
+            sampler.mip,
+            table.levels - 1};
 }
 
 /// lambda + bias, clamped to [min_lod, max_lod] (Vulkan "Level-of-Detail Operation"; D3D11.3 7.18.11: the lower bound wins).
@@ -273,8 +276,7 @@ HWY_INLINE void select_levels(const LevelTable& table, const SamplerState& sampl
     choice.mixes = false;
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
         const ScaledJacobian j = scale_jacobian(at, i, width, height);
-        const auto longer2 =
-            exact ? largest_singular_value(j).squared : hn::Max(squared_length(j.sx, j.tx), squared_length(j.sy, j.ty));
+        const auto longer2 = exact ? largest_singular_value(j).squared : hn::Max(squared_length(j.sx, j.tx), squared_length(j.sy, j.ty));
         const Lod lod = bound_lod(rules, lod_of_squared(longer2, j.exponent));
         choice.magnify |= wave_mask(di, magnifies(lod), i);
         store_levels(rules, lod, i, choice);

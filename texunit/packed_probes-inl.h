@@ -121,8 +121,12 @@ HWY_INLINE void sample_packed_level(const Texture& texture, const ProbeLevel& le
     auto m0 = hn::Zero(FloatTag()), m1 = m0, m2 = m0, m3 = m0;
     for (int n = 0; n < places.most; ++n) {
         const ProbeTexels at = probe_texels<repeats>(level, places.place(n));
-        const PackedWords words{hn::GatherIndex(du, base, at.upper_left), hn::GatherIndex(du, base, at.upper_right),
-                                hn::GatherIndex(du, base, at.lower_left), hn::GatherIndex(du, base, at.lower_right), at.x, at.y};
+        const PackedWords words{hn::GatherIndex(du, base, at.upper_left),
+                                hn::GatherIndex(du, base, at.upper_right),
+                                hn::GatherIndex(du, base, at.lower_left),
+                                hn::GatherIndex(du, base, at.lower_right),
+                                at.x,
+                                at.y};
         // The share of probe 0 is 1, so the mean starts with it.
         const auto share = places.share(n);
         m0 = lerp(share, m0, filter_packed<fields, 0>(layout, words));

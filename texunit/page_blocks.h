@@ -27,9 +27,7 @@ class PageBlocks {
     constexpr uint64_t rows_between(int first, int last) const { return rows_[std::size_t(8 * first + last)]; }
 
   private:
-    static constexpr int morton(int x, int y) {
-        return (x & 1) | (x & 2) << 1 | (x & 4) << 2 | (y & 1) << 1 | (y & 2) << 2 | (y & 4) << 3;
-    }
+    static constexpr int morton(int x, int y) { return (x & 1) | (x & 2) << 1 | (x & 4) << 2 | (y & 1) << 1 | (y & 2) << 2 | (y & 4) << 3; }
     std::array<uint64_t, 64> columns_{}, rows_{};
 };
 inline constexpr PageBlocks kPageBlocks;

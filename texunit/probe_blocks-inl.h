@@ -71,7 +71,8 @@ HWY_INLINE void bound_probes(const LevelTable& table, const SamplerState& sample
 HWY_NOINLINE inline bool rectangle_ready(const Texture& texture, int level, int left, int right, int top, int bottom) {
     constexpr int kMostPages = 64;
     constexpr int kPage = 1 << page_shape(kPacked).log2_width;  // texels, and as high
-    static_assert(page_shape(kPacked).log2_width == page_shape(kPacked).log2_height && kPage * kPage == kTexelsPerBlock * BlockStates::kGroup);
+    static_assert(page_shape(kPacked).log2_width == page_shape(kPacked).log2_height &&
+                  kPage * kPage == kTexelsPerBlock * BlockStates::kGroup);
     const LevelTable& table = texture.levels();
     const int width = table.width[size_t(level)], height = table.height[size_t(level)];
     // A small level is read whole.
@@ -90,8 +91,8 @@ HWY_NOINLINE inline bool rectangle_ready(const Texture& texture, int level, int 
     return true;
 }
 
-/// Whether the rectangles around the probes of all lanes, level by level, are ready: a quick answer to what prepare_packed_probes asks tap by
-/// tap. False says nothing.
+/// Whether the rectangles around the probes of all lanes, level by level, are ready: a quick answer to what prepare_packed_probes asks tap
+/// by tap. False says nothing.
 HWY_NOINLINE inline bool surely_ready(const Texture& texture, const SamplerState& sampler, const WaveInt& level, const ProbeChoice& probes,
                                       const WavePosition& centre) {
     if (centre.slice != nullptr || sampler.wrap_s != Wrap::Repeat || sampler.wrap_t != Wrap::Repeat) return false;
@@ -103,9 +104,8 @@ HWY_NOINLINE inline bool surely_ready(const Texture& texture, const SamplerState
         auto left = hn::Set(di, INT32_MAX), right = hn::Set(di, -INT32_MAX), top = left, bottom = right;
         for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(di)) {
             const auto lanes = hn::Eq(hn::Load(di, level.lane + i), hn::Set(di, here));
-            const auto bound = [&](const WaveInt& values, IntVec otherwise) HWY_ATTR {
-                return hn::IfThenElse(lanes, hn::Load(di, values.lane + i), otherwise);
-            };
+            const auto bound = [&](const WaveInt& values, IntVec otherwise)
+                                   HWY_ATTR { return hn::IfThenElse(lanes, hn::Load(di, values.lane + i), otherwise); };
             left = hn::Min(left, bound(bounds.left, left)), right = hn::Max(right, bound(bounds.right, right));
             top = hn::Min(top, bound(bounds.top, top)), bottom = hn::Max(bottom, bound(bounds.bottom, bottom));
             pending &= ~wave_mask(di, lanes, i);

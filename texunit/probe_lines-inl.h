@@ -103,7 +103,8 @@ HWY_INLINE ProbeLevel probe_level(const LevelTable& table, const SamplerState& s
     const FloatTag d;
     const IntTag di;
     const auto level = hn::Load(di, levels.lane + i);
-    const auto axis = [&](Wrap wrap, const WaveFloat& coordinate, const WaveFloat& direction, const std::array<int32_t, 16>& extents) HWY_ATTR {
+    const auto axis = [&](Wrap wrap, const WaveFloat& coordinate, const WaveFloat& direction,
+                          const std::array<int32_t, 16>& extents) HWY_ATTR {
         return probe_axis(wrap, hn::Load(d, coordinate.lane + i), hn::Load(d, direction.lane + i), look_up_level(di, extents, level));
     };
     ProbeLevel result;

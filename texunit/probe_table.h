@@ -11,9 +11,10 @@ inline constexpr int kMostProbes = 64;
 /// the probes' bounds and keeps a constant bit for bit.
 struct ProbeTable {
     alignas(64) std::array<float, kMostProbes*(kMostProbes + 1)> place;
-    alignas(64) std::array<float, kMostProbes*(kMostProbes + 1)> share;  ///< weight of probe i over that of probes 0..i; share of probe 0 is 1
+    alignas(
+        64) std::array<float, kMostProbes*(kMostProbes + 1)> share;  ///< weight of probe i over that of probes 0..i; share of probe 0 is 1
     alignas(64) std::array<float, kMostProbes*(kMostProbes + 1)> weight;  ///< of the whole: those of n probes sum to 1
-    std::array<float, kMostProbes + 1> gap;                              ///< between neighbouring probes
+    std::array<float, kMostProbes + 1> gap;                               ///< between neighbouring probes
 };
 
 /// The D3D and Vulkan line: equal weights, place = (i + 1/2)/n - 1/2 of the major axis.

@@ -102,8 +102,8 @@ TEST_P(EllipticalFilter, AgreesWithNestedQuadrature) {
                     const double bound = (double(weights.size()) + 8) * 0x1p-24 * largest;
                     const double error = std::abs(colour.channel[c][i] - expected);
                     worst = std::max(worst, error / bound);
-                    ASSERT_LE(error, bound) << info(format).name << " S2 " << s2 << ' ' << describe(lookups[size_t(i)]) << " taps " << weights.size()
-                                            << " expected " << expected << " found " << colour.channel[c][i];
+                    ASSERT_LE(error, bound) << info(format).name << " S2 " << s2 << ' ' << describe(lookups[size_t(i)]) << " taps "
+                                            << weights.size() << " expected " << expected << " found " << colour.channel[c][i];
                 }
             }
             // A texel whose corner grazes the cut may fall on either side of it in float.
@@ -143,11 +143,13 @@ TEST_P(EllipticalFilter, LeavesConstantsBitEqualAndStaysWithinItsTexels) {
     Texture hashed("hashed", make_hashed_pyramid(Format::RGBA8Unorm, 16, 16));
     const std::array<float, 4> expected = constant.texel(0, 0, 0, 0);
     std::vector<Lookup> lookups;
-    for (int i = 0; i < kWaveLanes; ++i) lookups.push_back(ellipse_lookup(16, 16, 0.03f * float(i), 0.9f, 0.1 * (i + 1) * (i + 1), 0.7, i * 0.3, i));
+    for (int i = 0; i < kWaveLanes; ++i)
+        lookups.push_back(ellipse_lookup(16, 16, 0.03f * float(i), 0.9f, 0.1 * (i + 1) * (i + 1), 0.7, i * 0.3, i));
     WaveColor colour;
     sample_wave(constant, {.ellipse = 1.0f / 6}, gather(lookups), kWaveFull, colour);
     for (int i = 0; i < kWaveLanes; ++i) {
-        for (int c = 0; c < 4; ++c) ASSERT_EQ(std::bit_cast<uint32_t>(colour.channel[c][i]), std::bit_cast<uint32_t>(expected[size_t(c)])) << i;
+        for (int c = 0; c < 4; ++c)
+            ASSERT_EQ(std::bit_cast<uint32_t>(colour.channel[c][i]), std::bit_cast<uint32_t>(expected[size_t(c)])) << i;
     }
     sample_wave(hashed, {.ellipse = 1.0f / 6}, gather(lookups), kWaveFull, colour);
     for (int i = 0; i < kWaveLanes; ++i) {
@@ -173,7 +175,8 @@ TEST_P(EllipticalFilter, HandlesFootprintsWithoutExtentOrWithoutEnd) {
             EXPECT_LE(counts.taps, uint64_t(kWaveLanes) * uint64_t(kMostEllipseTexels) * 5 / 4);
             for (int i = 0; i < kWaveLanes; ++i) {
                 for (int c = 0; c < 4; ++c) {
-                    ASSERT_TRUE(colour.channel[c][i] >= 0 && colour.channel[c][i] <= 1) << describe(lookups[size_t(i) % lookups.size()]) << ": " << colour.channel[c][i];
+                    ASSERT_TRUE(colour.channel[c][i] >= 0 && colour.channel[c][i] <= 1)
+                        << describe(lookups[size_t(i) % lookups.size()]) << ": " << colour.channel[c][i];
                 }
             }
         }

@@ -24,7 +24,8 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 LevelTable make_levels(int width, int height) {
     LevelTable table;
-    EXPECT_TRUE(lay_out_levels({.width = width, .height = height, .levels = full_level_count(width, height)}, StorageClass::Packed32, table));
+    EXPECT_TRUE(
+        lay_out_levels({.width = width, .height = height, .levels = full_level_count(width, height)}, StorageClass::Packed32, table));
     return table;
 }
 
@@ -158,7 +159,8 @@ TEST_P(Footprints, OfRatioOneTakeOneProbeWhateverTheAngle) {
         for (size_t first = 0; first < lookups.size(); first += kWaveLanes) {
             WaveFootprint found;
             measure_footprint(table, {.probes = 16, .lod_rule = rule}, gather(lookups, first), found);
-            for (int i = 0; i < kWaveLanes; ++i) ASSERT_EQ(found.probes[i], 1) << describe(lookups[first + size_t(i)]) << " eta " << found.anisotropy[i];
+            for (int i = 0; i < kWaveLanes; ++i)
+                ASSERT_EQ(found.probes[i], 1) << describe(lookups[first + size_t(i)]) << " eta " << found.anisotropy[i];
         }
     }
 }
@@ -173,16 +175,16 @@ TEST_P(Footprints, WithoutExtentOrWithoutEndAreHarmless) {
     };
     const float texel = 1.0f / 256;
     const Case cases[] = {
-        {{0, 0, 0, 0, 0, 0}, 1, 0},                             // a point
-        {{0, 0, 16 * texel, 0, 0, 0}, 16, 0},                   // a line: the ratio is the limit, a probe a texel
-        {{0, 0, 4 * texel, 0, 0, 0}, 4, 0},                     // a short one
-        {{0, 0, 64 * texel, 0, 64 * texel, 0}, 16, 2.5f},       // parallel: a line of 64*sqrt(2) texels, though both are as long
-        {{0, 0, kNan, 0, 0, texel}, 1, coarsest},               // not finite
-        {{0, 0, 0, -kInfinity, 0, texel}, 1, coarsest},         //
-        {{0, 0, 1e30f, 0, 0, 1e30f}, 1, coarsest},              // beyond every level
-        {{0, 0, 3e38f, 3e38f, 3e38f, -3e38f}, 1, coarsest},     //
-        {{0, 0, 1e-40f, 0, 0, 1e-42f}, 1, 0},                   // denormal
-        {{0, 0, 1e30f, 0, 0, 1e-30f}, 1, coarsest},             // the horizon
+        {{0, 0, 0, 0, 0, 0}, 1, 0},                          // a point
+        {{0, 0, 16 * texel, 0, 0, 0}, 16, 0},                // a line: the ratio is the limit, a probe a texel
+        {{0, 0, 4 * texel, 0, 0, 0}, 4, 0},                  // a short one
+        {{0, 0, 64 * texel, 0, 64 * texel, 0}, 16, 2.5f},    // parallel: a line of 64*sqrt(2) texels, though both are as long
+        {{0, 0, kNan, 0, 0, texel}, 1, coarsest},            // not finite
+        {{0, 0, 0, -kInfinity, 0, texel}, 1, coarsest},      //
+        {{0, 0, 1e30f, 0, 0, 1e30f}, 1, coarsest},           // beyond every level
+        {{0, 0, 3e38f, 3e38f, 3e38f, -3e38f}, 1, coarsest},  //
+        {{0, 0, 1e-40f, 0, 0, 1e-42f}, 1, 0},                // denormal
+        {{0, 0, 1e30f, 0, 0, 1e-30f}, 1, coarsest},          // the horizon
     };
     for (const Case& one : cases) {
         WaveFootprint found;
@@ -210,7 +212,8 @@ TEST_P(Footprints, KeepTheirLevelAtAllAnglesUpToTheProbeLimit) {
                 }
                 WaveFootprint found;
                 measure_footprint(table, {.probes = 32, .lod_rule = LodRule::Exact}, gather(lookups, 0), found);
-                for (int i = 0; i < kWaveLanes; ++i) least = std::min(least, double(found.lod[i])), most = std::max(most, double(found.lod[i]));
+                for (int i = 0; i < kWaveLanes; ++i)
+                    least = std::min(least, double(found.lod[i])), most = std::max(most, double(found.lod[i]));
             }
             EXPECT_NEAR(least, std::log2(minor), 1e-4) << minor << " x " << ratio;
             EXPECT_NEAR(most, std::log2(minor), 1e-4) << minor << " x " << ratio;

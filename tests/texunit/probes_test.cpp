@@ -88,9 +88,16 @@ TEST_P(Probes, GiveTheWeightedMeanOfTheirLookups) {
         int width, height;
     };
     double worst = 0;
-    for (const Case& one : {Case{Format::RGBA8Unorm, 256, 64}, {Format::RGBA8Unorm, 4096, 1024}, {Format::RGBA8Unorm, 100, 37},
-                            {Format::RGBA8Srgb, 256, 64}, {Format::RGBA8Snorm, 16, 512}, {Format::RG8Unorm, 64, 64}, {Format::R16Unorm, 64, 64},
-                            {Format::RGBA16Unorm, 256, 64}, {Format::RGBA16Half, 256, 64}, {Format::RGBA32Float, 256, 64}}) {
+    for (const Case& one : {Case{Format::RGBA8Unorm, 256, 64},
+                            {Format::RGBA8Unorm, 4096, 1024},
+                            {Format::RGBA8Unorm, 100, 37},
+                            {Format::RGBA8Srgb, 256, 64},
+                            {Format::RGBA8Snorm, 16, 512},
+                            {Format::RG8Unorm, 64, 64},
+                            {Format::R16Unorm, 64, 64},
+                            {Format::RGBA16Unorm, 256, 64},
+                            {Format::RGBA16Half, 256, 64},
+                            {Format::RGBA32Float, 256, 64}}) {
         Texture texture("hashed", make_hashed_pyramid(one.format, one.width, one.height));
         const reference::Image image{one.width, one.height, texture.shape().levels, [&](int level, int x, int y) {
                                          const std::array<float, 4> value = texture.texel(level, 0, x, y);
@@ -138,7 +145,8 @@ TEST_P(Probes, GiveTheWeightedMeanOfTheirLookups) {
 TEST_P(Probes, ReadNothingThatIsNotDecoded) {
     std::mt19937 random(17);
     for (int n = 0; n < 40; ++n) {
-        Texture lazy("lazy", make_hashed_pyramid(Format::RGBA8Unorm, 256, 128)), whole("whole", make_hashed_pyramid(Format::RGBA8Unorm, 256, 128));
+        Texture lazy("lazy", make_hashed_pyramid(Format::RGBA8Unorm, 256, 128)),
+            whole("whole", make_hashed_pyramid(Format::RGBA8Unorm, 256, 128));
         for (int level = 0; level < whole.shape().levels; ++level) {
             for (int y = 0; y < level_extent(128, level); y += 4) {
                 for (int x = 0; x < level_extent(256, level); x += 4) whole.ensure(level, 0, x, y);
@@ -243,7 +251,8 @@ TEST_P(Probes, SurviveFootprintsWithoutExtentOrWithoutEnd) {
                 for (int i = 0; i < kWaveLanes; ++i) {
                     const Lookup one = lookup_of(at, i);
                     ASSERT_TRUE(colour.channel[c][i] >= 0 && colour.channel[c][i] <= 1)
-                        << "u " << one.u << " v " << one.v << " d/dx " << one.dudx << ',' << one.dvdx << " d/dy " << one.dudy << ',' << one.dvdy;
+                        << "u " << one.u << " v " << one.v << " d/dx " << one.dudx << ',' << one.dvdx << " d/dy " << one.dudy << ','
+                        << one.dvdy;
                 }
             }
         }
@@ -281,7 +290,8 @@ TEST_P(Probes, AndEllipsesTellASinkTheTapsThatMakeTheResult) {
     Texture texture("hashed", make_hashed_pyramid(Format::RGBA8Unorm, 64, 64));
     std::mt19937 random(14);
     const WaveCoordinates at = random_footprints(random, 64, 64, 20);
-    for (const SamplerState& sampler : {SamplerState{.probes = 16}, SamplerState{.probes = 16, .probe_variance = 0.2f}, SamplerState{.ellipse = 0.2f}}) {
+    for (const SamplerState& sampler :
+         {SamplerState{.probes = 16}, SamplerState{.probes = 16, .probe_variance = 0.2f}, SamplerState{.ellipse = 0.2f}}) {
         TapSum sum;
         WaveColor colour, plain;
         sample_wave(texture, sampler, at, kWaveFull, colour, LookupExtras{.sink = &sum});

@@ -52,7 +52,8 @@ constexpr std::array<double, 5> kWeights = {0.2369268850561891, 0.47862867049936
 
 bool ellipse_axes(const Image& image, LodRule rule, const Lookup& at, EllipseAxes& axes) {
     const Jacobian j = jacobian(image, at);
-    if (!std::isfinite(float(j.sx)) || !std::isfinite(float(j.tx)) || !std::isfinite(float(j.sy)) || !std::isfinite(float(j.ty))) return false;
+    if (!std::isfinite(float(j.sx)) || !std::isfinite(float(j.tx)) || !std::isfinite(float(j.sy)) || !std::isfinite(float(j.ty)))
+        return false;
     const long double x = std::hypot(j.sx, j.tx), y = std::hypot(j.sy, j.ty);
     if (rule == LodRule::D3d) {
         axes = {double(std::max(x, y)), double(std::min(x, y)), double(x >= y ? j.sx / x : j.sy / y), double(x >= y ? j.tx / x : j.ty / y)};

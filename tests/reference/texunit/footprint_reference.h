@@ -18,10 +18,10 @@ bool ellipse_axes(const Image& image, LodRule rule, const Lookup& at, EllipseAxe
 
 /// An anisotropic footprint by the D3D and Vulkan rule.
 struct Footprint {
-    double eta = 1;         ///< ratio of the axes, at most the sampler's probes
-    double real_probes = 1; ///< before rounding up
+    double eta = 1;          ///< ratio of the axes, at most the sampler's probes
+    double real_probes = 1;  ///< before rounding up
     int probes = 1;
-    double lambda = 0;      ///< after bias and bounds, before the clamp to the levels
+    double lambda = 0;              ///< after bias and bounds, before the clamp to the levels
     double axis_u = 0, axis_v = 0;  ///< the major axis
 };
 Footprint footprint(const Image& image, const SamplerState& sampler, const Lookup& at);
