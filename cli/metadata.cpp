@@ -30,8 +30,8 @@ scenes::Metadata image_metadata(const RunRecord& record, bool has_display_transf
         metadata.emplace_back("rawtexel:tonemap", std::string(to_string(display.tone_map)));
         metadata.emplace_back("rawtexel:transfer", std::string(to_string(display.transfer)));
     }
-    if (!record.result.fetches.empty()) {
-        const texunit::FetchCounts fetches = total_fetches(record.result);
+    if (record.result.fetches) {
+        const texunit::FetchCounts fetches = record.result.fetches->total();
         metadata.emplace_back("rawtexel:lookups", std::to_string(fetches.lookups));
         metadata.emplace_back("rawtexel:taps", std::to_string(fetches.taps));
         metadata.emplace_back("rawtexel:texels_requested", std::to_string(fetches.texels_requested));

@@ -32,12 +32,6 @@ std::vector<texunit::TextureWork> texture_work(const shading::Scene& scene) {
     return work;
 }
 
-texunit::FetchCounts total_fetches(const shading::RenderResult& result) {
-    texunit::FetchCounts total;
-    for (const texunit::FetchCounts& counts : result.fetches) total += counts;
-    return total;
-}
-
 std::string shell_quoted(const std::vector<std::string>& words) {
     std::string result;
     for (const std::string& word : words) {

@@ -30,9 +30,6 @@ struct RunRecord {
 /// What was done in every texture of the scene so far.
 std::vector<texunit::TextureWork> texture_work(const shading::Scene& scene);
 
-/// Sum over all textures.
-texunit::FetchCounts total_fetches(const shading::RenderResult& result);
-
 /// Words joined so that a POSIX shell reads them back.
 std::string shell_quoted(const std::vector<std::string>& words);
 

@@ -140,12 +140,18 @@ class TileRasterizer {
             if (precedes(triangle, setup_index, other)) winners |= 1u << lane;
         }
         if (winners == 0) return;
-        if (triangle.coverage == CoverageClass::Opaque) {
-            out_.block_stale[block(column, row)] = 1;
-        } else {
+        const auto ask = [&](auto&& who) {
             SampleOffset storage[kBlockLanes];
             const SampleOffset* const offsets = pass_.offsets(column, row, storage);
-            winners &= coverage(CandidateWave{&triangle, setup_index, pass_.x + column, pass_.y + row, winners, offsets});
+            return who(CandidateWave{&triangle, setup_index, pass_.x + column, pass_.y + row, winners, offsets, wave.depth});
+        };
+        if (triangle.coverage != CoverageClass::Opaque) {
+            winners &= ask(coverage);
+        } else {
+            out_.block_stale[block(column, row)] = 1;
+            if constexpr (requires(const CandidateWave& opaque) { coverage.opaque(opaque); }) {
+                ask([&](const CandidateWave& candidate) { coverage.opaque(candidate); });
+            }
         }
         write(setup_index, column, row, winners, wave);
     }

@@ -38,12 +38,14 @@ struct CandidateWave {
     int x, y;                    ///< pixels of the frame, multiples of 8 and 4
     uint32_t mask;               ///< lane = column + 8*row
     const SampleOffset* offset;  ///< 32 sample offsets, by lane
+    const float* depth;          ///< 32 depths, by lane; of lanes outside the mask anything
 };
 
 /// Draws the bin of tile (tile_x, tile_y) into `out`, which it resets first. The winner at a sample is the greatest depth value
 /// (nearest), ties going to the smallest triangle_id, whatever the order of the bin: a total order. Opaque geometry is drawn first; for
 /// every other triangle `coverage(const CandidateWave&) -> uint32_t` returns the lanes of the mask that cover, called only for lanes in
-/// front so far. Coverage is exact: integer edge functions at 1/512-pixel sample points, top-left rule (D3D11.3, "Top-Left Rule").
+/// front so far. A coverage object with a member `opaque(const CandidateWave&)` hears of opaque waves in front so far, too. Coverage is
+/// exact: integer edge functions at 1/512-pixel sample points, top-left rule (D3D11.3, "Top-Left Rule").
 ///
 /// Defined in raster/visibility-inl.h, compiled into each caller's instruction set:
 ///   template <class Coverage>

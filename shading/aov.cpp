@@ -5,7 +5,7 @@
 namespace rawtexel::shading {
 namespace {
 
-constexpr std::array<std::string_view, 8> kNames = {"depth", "normal", "albedo", "uv", "lod", "material", "texels", "spp"};
+constexpr std::array<std::string_view, 9> kNames = {"depth", "normal", "albedo", "uv", "lod", "material", "texels", "lines", "spp"};
 
 }  // namespace
 

@@ -21,19 +21,8 @@ namespace HWY_NAMESPACE {
 
 namespace random = texunit::HWY_NAMESPACE;
 
-/// Lanes of the 8x4 block at (x, y) that lie in `rect`.
-HWY_INLINE WaveMask lanes_inside(const PixelRect& rect, int x, int y) {
-    WaveMask mask = 0;
-    const uint32_t first = uint32_t(HWY_MIN(HWY_MAX(rect.x0 - x, 0), 8)), last = uint32_t(HWY_MIN(HWY_MAX(rect.x1 - x, 0), 8));
-    const uint32_t columns = ((1u << last) - 1u) & ~((1u << first) - 1u);
-    for (int row = 0; row < texunit::kWaveHeight; ++row)
-        if (y + row >= rect.y0 && y + row < rect.y1) mask |= columns << (8 * row);
-    return mask;
-}
-
 /// MASK: alpha >= cutoff. BLEND: a random number of the (pixel, sample, triangle) < alpha, so that the mean over samples is the mix.
 /// alpha = texture * factor * vertex colour (glTF 2.0 3.9.4), looked up as the visible fragment's colour will be.
-template <class Count>
 class AlphaCoverage {
   public:
     AlphaCoverage(const raster::Frame& frame, std::span<const DrawState> draws, const PixelRect& visible, uint32_t seed,
@@ -41,21 +30,18 @@ class AlphaCoverage {
         : frame_(frame), draws_(draws), visible_(visible), seed_(seed), derivatives_(derivatives) {}
 
     void begin_sample(uint32_t sample) { sample_ = sample; }
-    /// `texels_of(x, y)`: where the block's requested texels are counted.
-    template <class TexelsOf>
-    uint32_t cover(const raster::CandidateWave& candidate, texunit::FetchCounts* textures, TexelsOf&& texels_of) {
+    uint32_t cover(const raster::CandidateWave& candidate) {
         const WaveMask mask = candidate.mask & lanes_inside(visible_, candidate.x, candidate.y);
         if (mask == 0) return 0;
         const DrawState& draw = draws_[candidate.triangle->draw];
-        const LookupCounts counts{textures, texels_of(candidate.x, candidate.y)};
-        find_alpha(draw, candidate, mask, counts);
+        find_alpha(draw, candidate, mask);
         const Material& material = *draw.material->material;
         return mask & (material.alpha_mode == AlphaMode::Mask ? at_least(material.alpha_cutoff) : drawn(candidate));
     }
 
   private:
     /// Fills alpha_.
-    void find_alpha(const DrawState& draw, const raster::CandidateWave& candidate, WaveMask mask, const LookupCounts& counts) {
+    void find_alpha(const DrawState& draw, const raster::CandidateWave& candidate, WaveMask mask) {
         const FloatLanes d;
         const MaterialState& material = *draw.material;
         const Mesh& mesh = *draw.mesh;
@@ -69,7 +55,7 @@ class AlphaCoverage {
         }
         if (map.texture) {
             interpolate_coordinates(material.coordinates[size_t(map.coordinates)], mesh, corners, weights_, coordinates_);
-            look_up<Count>(map, coordinates_, mask, counts, color_, nullptr);
+            look_up(map, coordinates_, mask, color_, nullptr);
         }
         for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) {
             auto alpha = hn::Set(d, material.material->base_color.a);

@@ -15,22 +15,11 @@ HWY_BEFORE_NAMESPACE();
 namespace rawtexel::shading {
 namespace HWY_NAMESPACE {
 
-/// Where a worker's counts go; ignored by kernels that do not count.
-struct LookupCounts {
-    texunit::FetchCounts* textures = nullptr;  ///< per scene texture
-    texunit::Wave<uint32_t>* pixel = nullptr;  ///< texels requested by the wave's pixels
-};
-
 /// One map. Not inlined: the sampler is large, and every map of every material shares this copy.
-template <class Count>
-HWY_NOINLINE void look_up(const MapState& map, const texunit::WaveCoordinates& at, WaveMask mask, const LookupCounts& counts,
-                          texunit::WaveColor& out, WaveFloat* lod) {
-    Count count;
-    if constexpr (Count::kCounts) {
-        count.texture = &counts.textures[map.texture_index];
-        count.pixel = counts.pixel;
-    }
-    texunit::HWY_NAMESPACE::sample_lanes(*map.texture, map.sampler, at, mask, count, out, lod);
+HWY_NOINLINE inline void look_up(const MapState& map, const texunit::WaveCoordinates& at, WaveMask mask, texunit::WaveColor& out,
+                                 WaveFloat* lod) {
+    texunit::NoFetchCount plain;
+    texunit::HWY_NAMESPACE::sample_lanes(*map.texture, map.sampler, at, mask, plain, out, lod);
 }
 
 /// Filtered values of a material's maps; those without a texture are left as they were.
@@ -38,20 +27,12 @@ struct MapColors {
     texunit::WaveColor slot[kMapSlots];
 };
 
-/// The base colour of a surface that is not opaque was asked for by its coverage already: it is one lookup, counted there.
-template <class Count>
-HWY_INLINE void look_up_maps(const MaterialState& material, const FragmentWave& fragment, WaveMask mask, const LookupCounts& counts,
-                             MapColors& out, WaveFloat* lod) {
-    const bool counted_by_coverage = material.material->alpha_mode != AlphaMode::Opaque;
+/// `lod`: of the base colour's lookup, where asked for.
+HWY_INLINE void look_up_maps(const MaterialState& material, const FragmentWave& fragment, WaveMask mask, MapColors& out, WaveFloat* lod) {
     for (int slot = 0; slot < kMapSlots; ++slot) {
         const MapState& map = material.maps[size_t(slot)];
         if (!map.texture) continue;
-        const texunit::WaveCoordinates& at = fragment.coordinates[map.coordinates];
-        if (slot == kBaseColor && counted_by_coverage) {
-            look_up<texunit::NoFetchCount>(map, at, mask, counts, out.slot[slot], lod);
-        } else {
-            look_up<Count>(map, at, mask, counts, out.slot[slot], slot == kBaseColor ? lod : nullptr);
-        }
+        look_up(map, fragment.coordinates[map.coordinates], mask, out.slot[slot], slot == kBaseColor ? lod : nullptr);
     }
 }
 

@@ -2,12 +2,15 @@
 
 #include "shading/camera.h"
 #include "shading/draw_state.h"
+#include "shading/fetch_account.h"
 #include "shading/tile.h"
+#include "shading/tile_range.h"
 #include "shading/tile_resolve.h"
 
 #include <atomic>
 #include <cassert>
 #include <chrono>
+#include <optional>
 
 namespace rawtexel::shading {
 namespace {
@@ -24,7 +27,8 @@ PixelRect visible_pixels(const RenderOptions& options) {
     return {crop.x, crop.y, crop.x + crop.width, crop.y + crop.height};
 }
 
-raster::Frame make_frame(const DrawStates& states, const RenderOptions& options, const PixelRect& visible, Executor& executor) {
+raster::Frame make_frame(const DrawStates& states, const RenderOptions& options, const PixelRect& visible, int tile_size,
+                         Executor& executor) {
     const float aspect = float(options.width) / float(options.height);
     const std::vector<raster::Draw> draws = make_raster_draws(states, clip_from_world(options.camera, aspect), DrawPurpose::Camera);
     const raster::FrameOptions frame_options{
@@ -34,7 +38,7 @@ raster::Frame make_frame(const DrawStates& states, const RenderOptions& options,
         .crop_y = visible.y0,
         .crop_width = visible.x1 - visible.x0,
         .crop_height = visible.y1 - visible.y0,
-        .tile_size = options.tile_size,
+        .tile_size = tile_size,
         .filter_radius = filter_radius(options.pixel_filter),
     };
     return raster::Frame(frame_options, draws, parallel_for_of(executor));
@@ -42,41 +46,66 @@ raster::Frame make_frame(const DrawStates& states, const RenderOptions& options,
 
 /// One worker's memory, made when the worker gets its first tile.
 struct Worker {
-    Worker(const TileInputs& inputs, size_t texture_count) : scratch(inputs, texture_count), resolver(inputs) {}
+    explicit Worker(const TileInputs& inputs) : scratch(inputs), resolver(inputs) {}
     TileScratch scratch;
     TileResolver resolver;
 };
 
-/// The tiles that touch the visible pixels, row by row.
-struct TileRange {
-    TileRange(const PixelRect& visible, int tile_size)
-        : x0(visible.x0 / tile_size),
-          y0(visible.y0 / tile_size),
-          columns((visible.x1 - 1) / tile_size + 1 - x0),
-          rows((visible.y1 - 1) / tile_size + 1 - y0) {}
-    int64_t count() const { return int64_t(columns) * rows; }
-    int x(int64_t index) const { return x0 + int(index % columns); }
-    int y(int64_t index) const { return y0 + int(index / columns); }
-    int x0, y0, columns, rows;
-};
-
-/// Renders all tiles into the images of `result` and adds up the workers' totals.
-TileTotals render_tiles(const TileInputs& inputs, size_t texture_count, std::span<const Aov> aovs, RenderResult& result, Executor& executor,
-                        const Progress& progress) {
+/// Renders all tiles into the images of `result` and adds up the workers' totals. `account`: null when nobody counts.
+TileTotals render_tiles(const TileInputs& inputs, FetchAccount* account, const RenderOptions& options, RenderResult& result,
+                        Executor& executor, const Progress& progress) {
+    assert(options.listener == nullptr || executor.threads() == 1);
     const TileRange tiles(inputs.visible, inputs.frame->options().tile_size);
     std::vector<std::unique_ptr<Worker>> workers(size_t(executor.threads()));
     std::atomic<int64_t> done{0};
+    const auto render_one = [&](int64_t tile, Worker& worker) {
+        render_tile(inputs, tiles.x(tile), tiles.y(tile), worker.scratch);
+        worker.resolver.resolve(tiles.x(tile), tiles.y(tile), worker.scratch, options.aovs, result);
+    };
     executor.parallel_for(tiles.count(), [&](int64_t index, int number) {
         std::unique_ptr<Worker>& worker = workers[size_t(number)];
-        if (!worker) worker = std::make_unique<Worker>(inputs, texture_count);
-        render_tile(inputs, tiles.x(index), tiles.y(index), worker->scratch);
-        worker->resolver.resolve(tiles.x(index), tiles.y(index), worker->scratch, aovs, result);
+        if (!worker) {
+            worker = std::make_unique<Worker>(inputs);
+            worker->scratch.listener = account ? &account->add_worker() : options.listener;
+        }
+        if (!account) {
+            render_one(index, *worker);
+        } else {
+            const int64_t tile = account->begin_tile(index);
+            try {
+                render_one(tile, *worker);
+            } catch (...) {
+                account->abandon();
+                throw;
+            }
+            account->end_tile(tile);
+        }
         if (progress) progress(double(++done) / double(tiles.count()));
     });
     TileTotals totals;
     for (const std::unique_ptr<Worker>& worker : workers)
         if (worker) totals += worker->scratch.totals;
     return totals;
+}
+
+/// With what the layers of counts need.
+FetchOptions fetch_options(const RenderOptions& options) {
+    FetchOptions fetches = options.fetches;
+    for (const Aov aov : options.aovs) {
+        fetches.pixel_texels |= aov == Aov::Texels;
+        fetches.pixel_lines |= aov == Aov::Lines;
+    }
+    return fetches;
+}
+
+void fill_count_layers(const RenderOptions& options, RenderResult& result) {
+    for (size_t i = 0; i < options.aovs.size(); ++i) {
+        std::vector<float>& values = result.layers[i].image.values;
+        if (options.aovs[i] == Aov::Lines) values = result.fetches->pixel(PixelCount::LinesPixel).values;
+        if (options.aovs[i] != Aov::Texels) continue;
+        values = result.fetches->pixel(PixelCount::TexelsRequested).values;
+        for (float& value : values) value /= float(options.spp);
+    }
 }
 
 }  // namespace
@@ -86,9 +115,13 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
     assert(options.width > 0 && options.height > 0 && options.spp > 0);
     const Clock::time_point start = Clock::now();
     const PixelRect visible = visible_pixels(options);
+    const FetchOptions fetches = fetch_options(options);
+    // The same image whatever the tiles: the order of fetches is that of its own.
+    const int tile_size = fetches.needs_order() ? kCanonicalTile : options.tile_size;
     const bool indirect_light = lighting.environment != nullptr || lighting.ambient != 0.0f;
-    const DrawStates states = make_draw_states(scene, {.filter = options.filter, .mip = options.mip, .footprint = options.footprint, .occlusion = indirect_light});
-    const raster::Frame frame = make_frame(states, options, visible, executor);
+    const DrawStates states = make_draw_states(
+        scene, {.filter = options.filter, .mip = options.mip, .footprint = options.footprint, .occlusion = indirect_light});
+    const raster::Frame frame = make_frame(states, options, visible, tile_size, executor);
 
     RenderResult result;
     result.times.geometry_s = seconds_since(start);
@@ -110,13 +143,16 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
         .derivatives = derivative_rule(options.footprint, options.spp),
         .background = options.background,
         .planes = TilePlanes(options.aovs, options.coverage),
-        .count = options.count,
+        .fetch_model = fetches.model,
     };
-    TileTotals totals = render_tiles(inputs, scene.textures.size(), options.aovs, result, executor, progress);
+    std::optional<FetchAccount> account;
+    if (fetches.counts() && !options.listener) account.emplace(scene, fetches, visible, tile_size, options.width);
+    const TileTotals totals = render_tiles(inputs, account ? &*account : nullptr, options, result, executor, progress);
     result.geometry = frame.counts();
     result.geometry.hiz_rejected += totals.hiz_rejected;
     result.samples_shaded = totals.samples_shaded;
-    if (options.count) result.fetches = std::move(totals.fetches);
+    if (account) result.fetches = account->take();
+    if (account) fill_count_layers(options, result);
     result.times.raster_s = totals.raster_s;
     result.times.shade_s = totals.shade_s;
     result.times.frame_s = seconds_since(start);

@@ -4,15 +4,18 @@
 #include "raster/frame.h"
 #include "shading/aov.h"
 #include "shading/executor.h"
+#include "shading/fetch_options.h"
 #include "shading/footprint_options.h"
+#include "shading/frame_fetches.h"
 #include "shading/image.h"
 #include "shading/lighting.h"
+#include "shading/lookup_listener.h"
 #include "shading/pixel_sampling.h"
 #include "shading/scene.h"
-#include "texunit/fetch_log.h"
 #include "texunit/sampler.h"
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,8 +43,10 @@ struct RenderOptions {
     std::optional<glm::vec3> background;  ///< nullopt: the environment, black where there is none
     std::vector<Aov> aovs;
     bool coverage = false;  ///< fill RenderResult::coverage
-    bool count = false;     ///< fill RenderResult::fetches
-    int tile_size = 64;     ///< 32, 64 or 128
+    FetchOptions fetches;   ///< what RenderResult::fetches is to hold; layers of counts ask for theirs themselves
+    /// Hears of every lookup in place of counters: one thread's executor is wanted.
+    LookupListener* listener = nullptr;
+    int tile_size = 64;  ///< 32, 64 or 128
 };
 
 struct RenderTimes {
@@ -54,8 +59,8 @@ struct RenderResult {
     std::vector<Layer> layers;  ///< one per requested AOV, in order
     Image coverage;             ///< 1 channel: the share of a pixel's samples that saw a surface; empty unless asked for
     raster::FrameCounts geometry;
-    uint64_t samples_shaded = 0;                ///< samples that saw a surface
-    std::vector<texunit::FetchCounts> fetches;  ///< per scene texture, when counted
+    uint64_t samples_shaded = 0;            ///< samples that saw a surface
+    std::unique_ptr<FrameFetches> fetches;  ///< null when nothing was counted
     RenderTimes times;
 };
 

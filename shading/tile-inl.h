@@ -8,6 +8,7 @@
 
 #include "raster/visibility-inl.h"
 #include "shading/coverage-inl.h"
+#include "shading/demanded_lookups-inl.h"
 #include "shading/environment-inl.h"
 #include "shading/fragment-inl.h"
 #include "shading/light-inl.h"
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <optional>
 
 HWY_BEFORE_NAMESPACE();
 namespace rawtexel::shading {
@@ -34,7 +36,6 @@ struct PixelWave {
     WaveVector direction;  ///< unit, from the eye through the sample points; found when first asked for
 };
 
-template <class Count>
 class TileRenderer {
   public:
     TileRenderer(const TileInputs& inputs, int tile_x, int tile_y, TileScratch& scratch)
@@ -51,6 +52,11 @@ class TileRenderer {
         using Clock = std::chrono::steady_clock;
         find_sequence_shifts();
         scratch_.sums.clear();
+        std::optional<DemandedLookups> demanded;
+        if (listens()) {
+            demanded.emplace(inputs_, tile_x_, tile_y_, scratch_);
+            scratch_.listener->begin_tile(tile_x_, tile_y_);
+        }
         for (uint32_t k = 0; k < uint32_t(inputs_.spp); ++k) {
             const uint32_t sample = inputs_.first_sample + k;
             const auto start = Clock::now();
@@ -59,14 +65,17 @@ class TileRenderer {
             const auto drawn = Clock::now();
             first_sample_ = k == 0;
             shade_sample();
+            if (demanded) demanded->tell_sample(sample, frame_offset_);
             scratch_.sums.add(sample, {scratch_.sample.data()->lane, scratch_.sample.size() * texunit::kWaveLanes});
             scratch_.totals.raster_s += std::chrono::duration<double>(drawn - start).count();
             scratch_.totals.shade_s += std::chrono::duration<double>(Clock::now() - drawn).count();
         }
+        if (listens()) scratch_.listener->end_tile();
     }
 
   private:
-    size_t wave_count() const { return scratch_.texels.size(); }
+    bool listens() const { return scratch_.listener != nullptr; }
+    size_t wave_count() const { return size_t(tile_size_ * tile_size_ / texunit::kWaveLanes); }
     WaveFloat& plane(int number, size_t wave) { return scratch_.sample[size_t(number) * wave_count() + wave]; }
     WaveFloat& first_sample_plane(int number, size_t wave) { return scratch_.first_sample[size_t(number) * wave_count() + wave]; }
     void store_vector(const WaveVector& value, WaveMask mask, int first_plane, size_t wave) {
@@ -97,15 +106,35 @@ class TileRenderer {
     void find_visible(uint32_t sample) {
         const bool per_pixel = inputs_.pixel_jitter == PixelJitter::Pixel;
         const raster::TileSamples samples{frame_offset_, per_pixel ? scratch_.offsets.data() : nullptr};
-        if constexpr (Count::kCounts) std::fill(scratch_.texels.begin(), scratch_.texels.end(), texunit::Wave<uint32_t>{});
         coverage_.begin_sample(sample);
-        const auto cover = [this](const raster::CandidateWave& candidate) HWY_ATTR {
-            const auto texels_of = [this](int x, int y)
-                                       HWY_ATTR { return &scratch_.texels[wave_at(x - tile_x_ * tile_size_, y - tile_y_ * tile_size_)]; };
-            return coverage_.cover(candidate, scratch_.totals.fetches.data(), texels_of);
-        };
-        raster::HWY_NAMESPACE::tile_visibility(frame_, tile_x_, tile_y_, samples, cover, scratch_.visibility);
+        if (listens()) {
+            scratch_.candidates.clear();
+            scratch_.candidates.keeps_opaque = inputs_.fetch_model != FetchModel::Visible;
+            raster::HWY_NAMESPACE::tile_visibility(frame_, tile_x_, tile_y_, samples, LoggingCoverage{*this}, scratch_.visibility);
+        } else {
+            const auto cover = [this](const raster::CandidateWave& candidate) HWY_ATTR { return coverage_.cover(candidate); };
+            raster::HWY_NAMESPACE::tile_visibility(frame_, tile_x_, tile_y_, samples, cover, scratch_.visibility);
+        }
         scratch_.totals.hiz_rejected += scratch_.visibility.hiz_rejected;
+    }
+
+    /// The tile's coverage, which also writes down whom it was asked about.
+    struct LoggingCoverage {
+        TileRenderer& tile;
+        uint32_t operator()(const raster::CandidateWave& candidate) {
+            const uint32_t covered = tile.coverage_.cover(candidate);
+            tile.log(candidate, covered);
+            return covered;
+        }
+        void opaque(const raster::CandidateWave& candidate) {
+            if (tile.scratch_.candidates.keeps_opaque) tile.log(candidate, candidate.mask);
+        }
+    };
+
+    void log(const raster::CandidateWave& candidate, WaveMask covered) {
+        const WaveMask lanes = candidate.mask & lanes_inside(inputs_.visible, candidate.x, candidate.y);
+        const size_t wave = wave_at(candidate.x - tile_x_ * tile_size_, candidate.y - tile_y_ * tile_size_);
+        scratch_.candidates.add(candidate, uint32_t(wave), lanes, covered & lanes);
     }
 
     /// Index of the wave whose upper left pixel is (x, y) of the tile.
@@ -132,7 +161,6 @@ class TileRenderer {
         scratch_.totals.samples_shaded += uint64_t(std::popcount(surface));
         if (surface != 0) shade_surfaces(surface);
         if (wave_.inside & ~surface) shade_background(wave_.inside & ~surface);
-        if (inputs_.planes.texels >= 0) store_texels();
     }
 
     /// What the tile's arrays hold for the wave's pixels.
@@ -231,10 +259,9 @@ class TileRenderer {
 
     void shade_pass(const DrawState& draw, WaveMask pass) {
         const MaterialState& material = *draw.material;
-        const LookupCounts counts{scratch_.totals.fetches.data(), &scratch_.texels[wave_.index]};
         WaveFloat lod = {};
         const bool wants_lod = first_sample_ && inputs_.planes.lod >= 0;
-        look_up_maps<Count>(material, fragment_, pass, counts, maps_, wants_lod ? &lod : nullptr);
+        look_up_maps(material, fragment_, pass, maps_, wants_lod ? &lod : nullptr);
         find_surface(draw, fragment_, maps_, surface_);
         if (material.material->unlit) {
             store_vector(surface_.base_color, pass, TilePlanes::kRadiance, wave_.index);
@@ -304,17 +331,11 @@ class TileRenderer {
         }
     }
 
-    void store_texels() {
-        const texunit::Wave<uint32_t>& texels = scratch_.texels[wave_.index];
-        WaveFloat& out = plane(inputs_.planes.texels, wave_.index);
-        for (int lane = 0; lane < texunit::kWaveLanes; ++lane) out[lane] = float(texels[lane]);
-    }
-
     const TileInputs& inputs_;
     const raster::Frame& frame_;
     TileScratch& scratch_;
     int tile_x_, tile_y_, tile_size_, waves_x_;
-    AlphaCoverage<Count> coverage_;
+    AlphaCoverage coverage_;
     raster::SampleOffset frame_offset_;
     bool first_sample_ = false;
     // Lanes that nobody asked for are computed along with their neighbours, so they hold numbers from the start.

@@ -4,13 +4,15 @@
 #include "raster/frame.h"
 #include "raster/visibility.h"
 #include "shading/accumulation.h"
+#include "shading/candidate_log.h"
 #include "shading/draw_state.h"
+#include "shading/fetch_options.h"
 #include "shading/lighting.h"
+#include "shading/lookup_listener.h"
 #include "shading/pixel_rect.h"
 #include "shading/pixel_sampling.h"
 #include "shading/tile_planes.h"
 #include "shading/view_rays.h"
-#include "texunit/fetch_log.h"
 
 #include <optional>
 #include <span>
@@ -33,7 +35,7 @@ struct TileInputs {
     DerivativeRule derivatives;
     std::optional<glm::vec3> background;  ///< nullopt: the environment, black where there is none
     TilePlanes planes;
-    bool count = false;
+    FetchModel fetch_model = FetchModel::Visible;  ///< of what listeners hear
 };
 
 /// Counts and times of one worker.
@@ -41,14 +43,13 @@ struct TileTotals {
     uint64_t samples_shaded = 0;
     uint64_t hiz_rejected = 0;
     double raster_s = 0, shade_s = 0;
-    std::vector<texunit::FetchCounts> fetches;  ///< per scene texture
 
     TileTotals& operator+=(const TileTotals& other);
 };
 
 /// A worker's memory, used for one tile after another so that the tiles themselves allocate nothing.
 struct TileScratch {
-    explicit TileScratch(const TileInputs& inputs, size_t texture_count);
+    explicit TileScratch(const TileInputs& inputs);
 
     raster::TileVisibility visibility;
     std::vector<SequenceShift> shifts;          ///< per pixel of the tile; empty for PixelJitter::Frame
@@ -56,8 +57,9 @@ struct TileScratch {
     /// Planes of the sample at hand: wave w of the tile (row by row) of plane p is entry p*waves + w.
     std::vector<texunit::WaveFloat> sample;
     std::vector<texunit::WaveFloat> first_sample;  ///< planes that show the first sample alone
-    std::vector<texunit::Wave<uint32_t>> texels;   ///< texels requested in the sample at hand, per wave
     SampleTree sums;
+    LookupListener* listener = nullptr;  ///< hears of the tile's lookups; null: nobody does
+    CandidateLog candidates;             ///< of the sample at hand, for the listener
     TileTotals totals;
 };
 

@@ -16,7 +16,6 @@ TilePlanes::TilePlanes(std::span<const Aov> aovs, bool coverage) {
     normal = place(asked(Aov::Normal), 3);
     albedo = place(asked(Aov::Albedo), 3);
     uv = place(asked(Aov::Uv), 2);
-    texels = place(asked(Aov::Texels), 1);
     if (asked(Aov::Lod)) lod = first_sample_count++;
     if (asked(Aov::Material)) material = first_sample_count++;
 }

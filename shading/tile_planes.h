@@ -18,7 +18,6 @@ struct TilePlanes {
     int normal = -1;  ///< three planes
     int albedo = -1;  ///< three planes
     int uv = -1;      ///< two planes
-    int texels = -1;
 
     int first_sample_count = 0;  ///< of the planes that show the first sample
     int lod = -1, material = -1;

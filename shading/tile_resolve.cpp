@@ -19,6 +19,7 @@ std::vector<std::string> channel_names(Aov aov) {
         case Aov::Lod:
         case Aov::Material:
         case Aov::Texels:
+        case Aov::Lines:
         case Aov::Spp: break;
     }
     return {"Y"};
@@ -60,7 +61,8 @@ void TileResolver::resolve_layer(Aov aov, const TileScratch& tile, Image& image)
         case Aov::Normal: return put_surface_means(tile.sums, planes.normal, image);
         case Aov::Albedo: return put_surface_means(tile.sums, planes.albedo, image);
         case Aov::Uv: return put_surface_means(tile.sums, planes.uv, image);
-        case Aov::Texels: return put_means(tile.sums, planes.texels, image);
+        case Aov::Texels:
+        case Aov::Lines: return;  // the frame's account of fetches has them
         case Aov::Lod: return put_first_sample(tile, planes.lod, image);
         case Aov::Material: return put_first_sample(tile, planes.material, image);
         case Aov::Spp: break;

@@ -241,59 +241,86 @@ HWY_NOINLINE inline void record_chunk(const EllipseChunk& chunk, const WaveFloat
     }
 }
 
-/// Who hears of an ellipse's taps: a choice at run time, which costs nothing beside that many taps.
-struct EllipseListeners {
-    FetchCounter* counter = nullptr;
-    TapSink* sink = nullptr;
+/// Counts a chunk's taps, which are all of one pixel, `lane`.
+HWY_INLINE void hear_chunk(const EllipseChunk& chunk, const WaveFloat&, float, int lane, FetchCounter& count) {
+    const WaveMask slots = chunk.used == kWaveLanes ? kWaveFull : (1u << chunk.used) - 1;
+    const WaveMask texels = slots & ~chunk.border;
+    mark_texels(chunk.level, &chunk.slice, chunk.x, chunk.y, texels, count);
+    WaveInt counted{};
+    counted[lane] = int(hwy::PopCount(texels));
+    add_texels(counted, chunk.level, count);
+}
+HWY_INLINE void hear_chunk(const EllipseChunk& chunk, const WaveFloat& weight, float total, int lane, FetchRecorder& recorder) {
+    record_chunk(chunk, weight, total, lane, *recorder.sink);
+}
+
+struct EllipseWalk {
+    Ellipse ellipse;
+    EllipseChunk chunk;
 };
-HWY_INLINE EllipseListeners listeners(NoFetchCount&) { return {}; }
-HWY_INLINE EllipseListeners listeners(FetchCounter& count) { return {&count, nullptr}; }
-HWY_INLINE EllipseListeners listeners(FetchRecorder& count) { return {&count, count.sink}; }
+
+HWY_INLINE void begin_walk(const LevelTable& table, const SamplerState& sampler, const EllipseLookup& at, int slice, EllipseWalk& walk) {
+    walk.ellipse = make_ellipse(table, sampler, at);
+    walk.chunk = {};
+    std::fill(walk.chunk.level.lane, walk.chunk.level.lane + kWaveLanes, walk.ellipse.level);
+    std::fill(walk.chunk.slice.lane, walk.chunk.slice.lane + kWaveLanes, slice);
+}
 
 /// One pixel, whose place in the wave is `lane`; returns the level read.
 template <StorageClass storage>
 HWY_NOINLINE int sample_ellipse(Texture& texture, const SamplerState& sampler, const EllipseLookup& at, int lane, int slice,
-                                const EllipseListeners& heard, WaveColor& out) {
-    const LevelTable& table = texture.levels();
-    const Ellipse ellipse = make_ellipse(table, sampler, at);
-    EllipseChunk chunk{};
-    std::fill(chunk.level.lane, chunk.level.lane + kWaveLanes, ellipse.level);
-    std::fill(chunk.slice.lane, chunk.slice.lane + kWaveLanes, slice);
+                                WaveColor& out) {
+    EllipseWalk walk;
+    begin_walk(texture.levels(), sampler, at, slice, walk);
     EllipseSums sums;
     WaveFloat weight;
-    int texels_read = 0;
-    for_each_chunk(table, sampler, ellipse, chunk, [&](EllipseChunk& full) HWY_ATTR {
+    for_each_chunk(texture.levels(), sampler, walk.ellipse, walk.chunk, [&](EllipseChunk& full) HWY_ATTR {
         fill_unused(full);
-        ellipse_weights(ellipse, full, weight);
+        ellipse_weights(walk.ellipse, full, weight);
         TexelWave<1> texels;
         fetch_chunk<storage>(texture, full, texels);
         if (full.border != 0) set_border(sampler.border, full.border, texels);
         add_weighed(weight, texels, sums);
-        texels_read += full.used - int(hwy::PopCount(full.border));
     });
     for (int c = 0; c < 4; ++c) out.channel[c][lane] = ellipse_mean(sums, c);
-    if (heard.counter != nullptr) {
-        WaveInt counted{};
-        counted[lane] = texels_read;
-        add_texels(counted, *heard.counter);
-    }
-    if (heard.sink != nullptr) {
-        const float total = reduce_lanes(sums.weight, [](float x, float y) { return x + y; });
-        for_each_chunk(table, sampler, ellipse, chunk, [&](EllipseChunk& full) HWY_ATTR {
-            ellipse_weights(ellipse, full, weight);
-            record_chunk(full, weight, total, lane, *heard.sink);
-        });
-    }
-    return ellipse.level;
+    return walk.ellipse.level;
 }
 
-template <StorageClass storage>
+/// The same for a listener: the sum of the weights, and then every tap's share of it.
+template <class Count>
+HWY_NOINLINE int hear_ellipse(const LevelTable& table, const SamplerState& sampler, const EllipseLookup& at, int lane, int slice,
+                              Count& count) {
+    EllipseWalk walk;
+    begin_walk(table, sampler, at, slice, walk);
+    WaveFloat weight;
+    float total = 1;
+    if constexpr (Count::kRecords) {
+        WaveFloat sum{};
+        for_each_chunk(table, sampler, walk.ellipse, walk.chunk, [&](EllipseChunk& full) HWY_ATTR {
+            ellipse_weights(walk.ellipse, full, weight);
+            for (int slot = 0; slot < full.used; ++slot) sum[slot] += weight[slot];
+        });
+        total = reduce_lanes(sum, [](float x, float y) { return x + y; });
+    }
+    for_each_chunk(table, sampler, walk.ellipse, walk.chunk, [&](EllipseChunk& full) HWY_ATTR {
+        if constexpr (Count::kRecords) ellipse_weights(walk.ellipse, full, weight);
+        hear_chunk(full, weight, total, lane, count);
+    });
+    return walk.ellipse.level;
+}
+
+template <StorageClass storage, class Count>
 HWY_NOINLINE void sample_ellipses_stored(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, const WaveInt* slice,
-                                         WaveMask mask, const EllipseListeners& heard, WaveColor& out, WaveFloat& level) {
+                                         WaveMask mask, Count& count, WaveColor& out, WaveFloat& level) {
     for (WaveMask rest = mask; rest != 0; rest &= rest - 1) {
         const auto lane = int(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest));
         const EllipseLookup lookup{at.u[lane], at.v[lane], at.dudx[lane], at.dvdx[lane], at.dudy[lane], at.dvdy[lane]};
-        level[lane] = float(sample_ellipse<storage>(texture, sampler, lookup, lane, slice == nullptr ? 0 : (*slice)[lane], heard, out));
+        const int layer = slice == nullptr ? 0 : (*slice)[lane];
+        if constexpr (Count::kReads) {
+            level[lane] = float(sample_ellipse<storage>(texture, sampler, lookup, lane, layer, out));
+        } else {
+            level[lane] = float(hear_ellipse(texture.levels(), sampler, lookup, lane, layer, count));
+        }
     }
 }
 
@@ -303,14 +330,18 @@ template <class Count>
 HWY_INLINE void sample_ellipses(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, const WaveInt* slice,
                                 WaveMask mask, Count& count, WaveColor& out, WaveFloat& level) {
     const auto sample = [&]<StorageClass storage>()
-                            HWY_ATTR { sample_ellipses_stored<storage>(texture, sampler, at, slice, mask, listeners(count), out, level); };
-    switch (texture.texel_layout().storage) {
-        case StorageClass::Packed32: sample.template operator()<StorageClass::Packed32>(); break;
-        case StorageClass::Packed64: sample.template operator()<StorageClass::Packed64>(); break;
-        case StorageClass::Half4: sample.template operator()<StorageClass::Half4>(); break;
-        case StorageClass::Float4: sample.template operator()<StorageClass::Float4>(); break;
+                            HWY_ATTR { sample_ellipses_stored<storage>(texture, sampler, at, slice, mask, count, out, level); };
+    if constexpr (!Count::kReads) {
+        sample.template operator()<StorageClass::Packed32>();
+    } else {
+        switch (texture.texel_layout().storage) {
+            case StorageClass::Packed32: sample.template operator()<StorageClass::Packed32>(); break;
+            case StorageClass::Packed64: sample.template operator()<StorageClass::Packed64>(); break;
+            case StorageClass::Half4: sample.template operator()<StorageClass::Half4>(); break;
+            case StorageClass::Float4: sample.template operator()<StorageClass::Float4>(); break;
+        }
+        for (WaveFloat& channel : out.channel) repeat_first(channel, mask, channel);
     }
-    for (WaveFloat& channel : out.channel) repeat_first(channel, mask, channel);
     repeat_first(level, mask, level);
 }
 

@@ -1,13 +1,17 @@
-// What lookups asked for. Counting is a policy: the wave code is compiled once for each policy, and what one does not ask for costs
-// nothing.
+// What lookups ask for. What a lookup does with its taps is a policy, and the wave code is compiled once for each:
 //
-//   NoFetchCount    nothing: the plain path
-//   FetchCounter    sums, per texture and per pixel
-//   FetchRecorder   the same, and every tap by itself, to a TapSink: traces, fetch logs, cache models
+//   NoFetchCount    reads and filters them: the plain path, which counts nothing and pays nothing for it
+//   FetchCounter    adds them up, per texture, level and pixel, and marks the texels they name
+//   FetchRecorder   tells a TapSink of each by itself: traces, fetch streams
+//
+// The last two read no texel: what is asked for follows from the texture's shape and the sampler alone.
 #pragma once
 
+#include "texunit/texel_source.h"
+#include "texunit/touched_texels.h"
 #include "texunit/wave.h"
 
+#include <array>
 #include <cstdint>
 
 namespace rawtexel::texunit {
@@ -17,9 +21,10 @@ class Texture;
 /// Demanded counts: what material and sampler ask for, independent of skips, threads and tile size. Taps of weight 0 are not asked for; a
 /// tap that takes the border colour reads no texel and is not counted; a tap beyond the corner of a cube map is three.
 struct FetchCounts {
-    uint64_t lookups = 0;           ///< one map asked at one shading point
-    uint64_t taps = 0;              ///< taps weighed
-    uint64_t texels_requested = 0;  ///< texel reads, with repeats
+    uint64_t lookups = 0;                             ///< one map asked at one shading point
+    uint64_t taps = 0;                                ///< taps weighed
+    uint64_t texels_requested = 0;                    ///< texel reads, with repeats
+    std::array<uint64_t, kMaxLevels> level_texels{};  ///< the same by level
 
     FetchCounts& operator+=(const FetchCounts& other);
     bool operator==(const FetchCounts&) const = default;
@@ -50,22 +55,27 @@ class TapSink {
     virtual void tap(const WaveTap& tap) = 0;
 };
 
-/// Counts nothing and costs nothing.
 struct NoFetchCount {
+    static constexpr bool kReads = true;
     static constexpr bool kCounts = false;
     static constexpr bool kRecords = false;
 };
 
-/// One per worker and texture set; merged in any order, since sums of integers do not depend on it.
+/// One per worker; merged in any order, since sums of integers do not depend on it.
 struct FetchCounter {
+    static constexpr bool kReads = false;
     static constexpr bool kCounts = true;
     static constexpr bool kRecords = false;
-    FetchCounts* texture = nullptr;   ///< of the texture looked up now
+    FetchCounts* counts = nullptr;    ///< of the texture looked up now
+    TouchedBits touched{};            ///< of that texture; marks nothing where empty
     Wave<uint32_t>* pixel = nullptr;  ///< texels requested by each lane's pixel, added to; null where nobody asks
+
+    const Texture* texture = nullptr;  ///< set by the lookup
 };
 
-/// A FetchCounter that also tells a sink.
-struct FetchRecorder : FetchCounter {
+struct FetchRecorder {
+    static constexpr bool kReads = false;
+    static constexpr bool kCounts = false;
     static constexpr bool kRecords = true;
     TapSink* sink = nullptr;  ///< never null
 };

@@ -26,8 +26,6 @@ namespace rawtexel::texunit {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using FloatVec = hn::Vec<FloatTag>;
-using IntVec = hn::Vec<IntTag>;
 using FloatMask = hn::Mask<FloatTag>;
 
 /// Which levels a wave reads. Every lane reads `finer`; where `fraction` is not 0 it mixes in that much of `coarser`, else coarser = finer.

@@ -170,10 +170,11 @@ HWY_NOINLINE void sample_packed_wave(const Texture& texture, const SamplerState&
 template <class Count>
 HWY_INLINE void sample_packed_probes(Texture& texture, const SamplerState& sampler, const LevelChoice& choice, const ProbeChoice& probes,
                                      const WavePosition& centre, WaveMask mask, Count& count, WaveColor& out) {
+    if constexpr (!Count::kReads) return prepare_packed_probes(texture, sampler, choice, probes, centre, mask, count);
     const auto ready = [&](const WaveInt& level) HWY_ATTR {
         return (levels_read(level) & ~texture.ready_levels()) == 0 || surely_ready(texture, sampler, level, probes, centre);
     };
-    if (Count::kCounts || !ready(choice.finer) || !ready(choice.coarser)) {
+    if (!ready(choice.finer) || !ready(choice.coarser)) {
         prepare_packed_probes(texture, sampler, choice, probes, centre, mask, count);
     }
     const bool repeats = sampler.wrap_s == Wrap::Repeat && sampler.wrap_t == Wrap::Repeat;

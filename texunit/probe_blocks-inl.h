@@ -125,7 +125,7 @@ HWY_INLINE WaveMask mixing_lanes(const LevelChoice& choice) {
     return lanes;
 }
 
-/// Counts the taps of all probes and makes sure that their texels may be read.
+/// Makes sure that the texels of all probes may be read, or tells a listener of their taps.
 template <class Count>
 HWY_NOINLINE void prepare_packed_probes(Texture& texture, const SamplerState& sampler, const LevelChoice& choice, const ProbeChoice& probes,
                                         const WavePosition& centre, WaveMask mask, Count& count) {
@@ -142,10 +142,13 @@ HWY_NOINLINE void prepare_packed_probes(Texture& texture, const SamplerState& sa
             TapWave<2> taps;
             select_packed_taps(texture.levels(), sampler, level, probes, centre, n, taps);
             begin_level(choice.fraction, coarser, count);
-            count_taps(texture.levels(), taps, false, nullptr, reading, count);
-            WaveInt index[4];
-            tap_indices<kPacked>(texture.levels(), taps, index);
-            ensure(texture, level, index);
+            if constexpr (Count::kReads) {
+                WaveInt index[4];
+                tap_indices<kPacked>(texture.levels(), taps, index);
+                ensure(texture, level, index);
+            } else {
+                hear_taps(texture.levels(), taps, false, nullptr, reading, count);
+            }
         }
     }
 }

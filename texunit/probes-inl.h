@@ -100,7 +100,7 @@ HWY_INLINE void sample_probes(const SamplerState& sampler, const ProbeChoice& pr
         place_probe(sampler, table, probes, centre, i, u, v, share);
         announce_probe(table, probes, i, count);
         sample_at(position, active, i == 0 ? out : probe);
-        if (i > 0) accumulate_probe(share, probe, out);
+        if (Count::kReads && i > 0) accumulate_probe(share, probe, out);
     }
 }
 

@@ -17,7 +17,8 @@ namespace rawtexel::texunit {
 namespace HWY_NAMESPACE {
 
 /// sample_wave of texunit/sample.h. Lanes outside `mask` of `out` hold the colour of the first active lane, all zero for an empty mask.
-/// `lod`, when asked for, gets lambda clamped to the levels there are. Count is NoFetchCount, FetchCounter or FetchRecorder.
+/// `lod`, when asked for, gets lambda clamped to the levels there are. Count is NoFetchCount, or FetchCounter or FetchRecorder, which leave
+/// `out` alone.
 template <class Count>
 void sample_lanes(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, Count& count, WaveColor& out,
                   WaveFloat* lod, const WaveFloat* layer = nullptr);

@@ -30,43 +30,53 @@ template void sample_cube_lanes(Texture&, const SamplerState&, const WaveCoordin
 template void sample_cube_lanes(Texture&, const SamplerState&, const WaveCoordinates3&, WaveMask, FetchRecorder&, WaveColor&, WaveFloat*,
                                 const WaveFloat*);
 
-/// Calls `lookup` with the policy that `extras` asks for.
+/// Calls `lookup` to read, and once more for everyone who listens.
 template <class Lookup>
-HWY_INLINE void with_policy(const LookupExtras& extras, const Lookup& lookup) {
-    if (extras.sink != nullptr) {
-        FetchCounts unasked;
-        FetchRecorder recorder;
-        recorder.texture = extras.counts != nullptr ? extras.counts : &unasked;
-        recorder.sink = extras.sink;
-        lookup(recorder);
-    } else if (extras.counts != nullptr) {
-        FetchCounter counter{.texture = extras.counts};
+HWY_INLINE void with_policies(const LookupExtras& extras, const Lookup& lookup) {
+    NoFetchCount plain;
+    lookup(plain);
+    if (extras.counts != nullptr) {
+        FetchCounter counter{.counts = extras.counts};
         lookup(counter);
-    } else {
-        NoFetchCount nothing;
-        lookup(nothing);
+    }
+    if (extras.sink != nullptr) {
+        FetchRecorder recorder{.sink = extras.sink};
+        lookup(recorder);
     }
 }
 
 /// The common case, without a detour over what might be asked for.
 void sample_plain(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, WaveColor& out) {
-    NoFetchCount nothing;
-    sample_lanes(texture, sampler, at, mask, nothing, out, nullptr, nullptr);
+    NoFetchCount plain;
+    sample_lanes(texture, sampler, at, mask, plain, out, nullptr, nullptr);
 }
 
 void sample_flat(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, WaveColor& out,
                  const LookupExtras& extras) {
-    with_policy(extras, [&](auto& count) HWY_ATTR { sample_lanes(texture, sampler, at, mask, count, out, extras.lod, extras.layer); });
+    with_policies(extras, [&](auto& policy) HWY_ATTR { sample_lanes(texture, sampler, at, mask, policy, out, extras.lod, extras.layer); });
 }
 
 void sample_volume(Texture& texture, const SamplerState& sampler, const WaveCoordinates3& at, WaveMask mask, WaveColor& out,
                    const LookupExtras& extras) {
-    with_policy(extras, [&](auto& count) HWY_ATTR { sample_volume_lanes(texture, sampler, at, mask, count, out, extras.lod); });
+    with_policies(extras, [&](auto& policy) HWY_ATTR { sample_volume_lanes(texture, sampler, at, mask, policy, out, extras.lod); });
 }
 
 void sample_cube(Texture& texture, const SamplerState& sampler, const WaveCoordinates3& at, WaveMask mask, WaveColor& out,
                  const LookupExtras& extras) {
-    with_policy(extras, [&](auto& count) HWY_ATTR { sample_cube_lanes(texture, sampler, at, mask, count, out, extras.lod, extras.layer); });
+    with_policies(extras,
+                  [&](auto& policy) HWY_ATTR { sample_cube_lanes(texture, sampler, at, mask, policy, out, extras.lod, extras.layer); });
+}
+
+void count_flat(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, FetchCounter& counter,
+                WaveFloat* lod) {
+    WaveColor unread;
+    sample_lanes(texture, sampler, at, mask, counter, unread, lod, nullptr);
+}
+
+void record_flat(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, TapSink& sink) {
+    WaveColor unread;
+    FetchRecorder recorder{.sink = &sink};
+    sample_lanes(texture, sampler, at, mask, recorder, unread, nullptr, nullptr);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -80,6 +90,8 @@ HWY_EXPORT(sample_plain);
 HWY_EXPORT(sample_flat);
 HWY_EXPORT(sample_volume);
 HWY_EXPORT(sample_cube);
+HWY_EXPORT(count_flat);
+HWY_EXPORT(record_flat);
 
 void sample_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, WaveColor& out,
                  const LookupExtras& extras) {
@@ -104,6 +116,15 @@ void sample_cube_wave(Texture& texture, const SamplerState& sampler, const WaveC
                       const LookupExtras& extras) {
     assert(texture.shape().layers % 6 == 0 && texture.shape().width == texture.shape().height);
     HWY_DYNAMIC_DISPATCH(sample_cube)(texture, sampler, directions, mask, out, extras);
+}
+
+void count_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, FetchCounter& counter,
+                WaveFloat* lod) {
+    HWY_DYNAMIC_DISPATCH(count_flat)(texture, sampler, at, mask, counter, lod);
+}
+
+void record_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, TapSink& sink) {
+    HWY_DYNAMIC_DISPATCH(record_flat)(texture, sampler, at, mask, sink);
 }
 
 }  // namespace rawtexel::texunit

@@ -54,4 +54,9 @@ void sample_volume_wave(Texture& texture, const SamplerState& sampler, const Wav
 void sample_cube_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates3& directions, WaveMask mask, WaveColor& out,
                       const LookupExtras& extras = {});
 
+/// What sample_wave would ask for, without reading a texel: adds it to `counter`, or tells `sink` of every tap.
+void count_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, FetchCounter& counter,
+                WaveFloat* lod = nullptr);
+void record_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, TapSink& sink);
+
 }  // namespace rawtexel::texunit

@@ -83,7 +83,7 @@ HWY_NOINLINE void sample_lanes(Texture& texture, const SamplerState& sampler, co
         select_layers(*layer, mask, texture.shape().layers, slice);
         position.slice = &slice;
     }
-    count_lookups(texture, mask, count);
+    begin_lookups(texture, mask, count);
     if (sampler.probes != 1 || sampler.ellipse > 0) {
         return sample_anisotropic(texture, sampler, at, position, mask, count, out, lod);
     }
@@ -148,7 +148,7 @@ HWY_NOINLINE void sample_volume_lanes(Texture& texture, const SamplerState& samp
     WaveCoordinates flat{at.position[0], at.position[1], {}, {}, {}, {}};
     if (!needs_no_level(state, lod)) flatten_derivatives(texture.levels(), state.lod_rule, at, flat);
     choose_levels(texture, state, flat, choice, lod);
-    count_lookups(texture, mask, count);
+    begin_lookups(texture, mask, count);
     sample_levels(texture, state, {.u = &at.position[0], .v = &at.position[1], .w = &at.position[2]}, choice, mask, count, out);
 }
 
@@ -172,7 +172,7 @@ HWY_NOINLINE void sample_cube_lanes(Texture& texture, const SamplerState& sample
     const SamplerState state = isotropic(sampler);
     LevelChoice choice;
     choose_levels(texture, state, cube.face, choice, lod);
-    count_lookups(texture, mask, count);
+    begin_lookups(texture, mask, count);
     const WavePosition position{.u = &cube.face.u, .v = &cube.face.v, .slice = &cube.slice, .u_rest = &cube.u_rest, .v_rest = &cube.v_rest};
     sample_levels(texture, state, position, choice, mask, count, out);
 }

@@ -19,17 +19,6 @@ namespace rawtexel::texunit {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Taps of weight 0 are neither read nor counted: a fraction of 0 halves the taps along its axis.
-HWY_INLINE hn::Vec<IntTag> tap_count(const TapWave<1>&, size_t) { return hn::Set(IntTag(), 1); }
-HWY_INLINE hn::Vec<IntTag> tap_count(const TapWave<2>& taps, size_t i) {
-    const FloatTag d;
-    const IntTag di;
-    const auto along = [&](const WaveFloat& fraction) HWY_ATTR {
-        return hn::IfThenElse(hn::RebindMask(di, hn::Eq(hn::Load(d, fraction.lane + i), hn::Zero(d))), hn::Set(di, 1), hn::Set(di, 2));
-    };
-    return hn::Mul(along(taps.fraction_x), along(taps.fraction_y));
-}
-
 /// 1 - fraction and fraction; of a kernel of one tap 1.
 template <int W>
 HWY_INLINE void narrow_weights(const WaveFloat& fraction, WaveFloat (&weight)[W]) {
@@ -46,33 +35,19 @@ HWY_INLINE void narrow_weights(const WaveFloat& fraction, WaveFloat (&weight)[W]
     }
 }
 
+/// Tells a listener of the taps of the lanes of `mask`. `scale` is the weight of a slice of a volume, else null.
 template <int W, class Count>
-HWY_NOINLINE void count_narrow_taps(const LevelTable& table, const TapWave<W>& taps, bool cube, const WaveFloat* scale, WaveMask mask,
-                                    Count& count) {
-    if (!Count::kRecords && !taps.leaves) {
-        const IntTag d;
-        WaveInt counted;
-        for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-            hn::Store(hn::IfThenElseZero(lanes_of(d, mask, i), tap_count(taps, i)), d, counted.lane + i);
-        }
-        return add_texels(counted, count);
-    }
+HWY_NOINLINE void hear_taps(const LevelTable& table, const TapWave<W>& taps, bool cube, const WaveFloat* scale, WaveMask mask,
+                            Count& count) {
     WaveFloat weight_x[W], weight_y[W];
     narrow_weights(taps.fraction_x, weight_x);
     narrow_weights(taps.fraction_y, weight_y);
     const auto axis = [&](const WaveInt(&texel)[W], const WaveFloat(&weight)[W], const WaveMask(&outside)[W]) {
         return AxisView{W, texel, weight, taps.leaves ? outside : nullptr};
     };
-    count_grid({axis(taps.x, weight_x, taps.outside_x), axis(taps.y, weight_y, taps.outside_y), taps.level, taps.slice, scale, 0,
-                cube ? table.width.data() : nullptr},
-               mask, count);
-}
-
-/// Counts and records the taps of the lanes of `mask`. `scale` is the weight of a slice of a volume, else null.
-template <int W, class Count>
-HWY_INLINE void count_taps(const LevelTable& table, const TapWave<W>& taps, bool cube, const WaveFloat* scale, WaveMask mask,
-                           Count& count) {
-    if constexpr (Count::kCounts) count_narrow_taps(table, taps, cube, scale, mask, count);
+    hear_grid({axis(taps.x, weight_x, taps.outside_x), axis(taps.y, weight_y, taps.outside_y), taps.level, taps.slice, scale, 0,
+               cube ? table.width.data() : nullptr},
+              mask, count);
 }
 
 /// One level of a 2-D texture or a cube map through a kernel of W taps an axis.
@@ -81,10 +56,13 @@ HWY_INLINE void sample_flat_level(Texture& texture, const SamplerState& sampler,
                                   WaveMask nearest, WaveMask counted, Count& count, WaveColor& out) {
     TapWave<W> taps;
     select_taps(texture.levels(), sampler, at, level, nearest, taps);
-    count_taps(texture.levels(), taps, at.cube(), nullptr, counted, count);
-    TexelWave<W * W> texels;
-    fetch<storage>(texture, sampler.border, at.cube(), taps, texels);
-    filter<storage>(taps, texels, out);
+    if constexpr (Count::kReads) {
+        TexelWave<W * W> texels;
+        fetch<storage>(texture, sampler.border, at.cube(), taps, texels);
+        filter<storage>(taps, texels, out);
+    } else {
+        hear_taps(texture.levels(), taps, at.cube(), nullptr, counted, count);
+    }
 }
 
 /// One level of a volume: its one or two slices, each filtered as a 2-D texture.
@@ -111,15 +89,19 @@ HWY_NOINLINE void sample_volume_level(Texture& texture, const SamplerState& samp
         in_slice.leaves = taps.leaves || outside[n] != 0;
         for (WaveMask& lanes : in_slice.outside_x) lanes |= outside[n];
         const WaveMask weighing = weighing_lanes(weight[n], kWaveFull);
-        if (weighing == 0) {
-            colour[n] = colour[0];
-            continue;
+        if constexpr (Count::kReads) {
+            if (weighing == 0) {
+                colour[n] = colour[0];
+                continue;
+            }
+            TexelWave<W * W> texels;
+            fetch<storage>(texture, sampler.border, false, in_slice, texels);
+            filter<storage>(in_slice, texels, colour[n]);
+        } else if (weighing != 0) {
+            hear_taps(table, in_slice, false, &weight[n], counted & weighing, count);
         }
-        count_taps(table, in_slice, false, &weight[n], counted & weighing, count);
-        TexelWave<W * W> texels;
-        fetch<storage>(texture, sampler.border, false, in_slice, texels);
-        filter<storage>(in_slice, texels, colour[n]);
     }
+    if constexpr (!Count::kReads) return;
     out = colour[0];
     if constexpr (W == 2) mix_levels<storage>(fraction, colour[1], out);
 }
@@ -139,17 +121,18 @@ HWY_NOINLINE void sample_wide_level(Texture& texture, const SamplerState& sample
     if (taps.volume) {
         select_wide_axis(kernel, edge_rule(sampler.wrap_r), *at.w, table.depth, level, {sampler.precision, nullptr}, taps.z);
     }
-    if constexpr (Count::kCounts) {
+    if constexpr (Count::kReads) {
+        filter_wide<storage>(texture, sampler.border, taps, out);
+    } else {
         TapGrid grid{view(taps.x), view(taps.y), &level, at.slice, nullptr, 0, taps.cube ? table.width.data() : nullptr};
-        if (!taps.volume) count_grid(grid, counted, count);
-        for (int z = 0; taps.volume && z < taps.z.count; ++z) {
+        if (!taps.volume) return hear_grid(grid, counted, count);
+        for (int z = 0; z < taps.z.count; ++z) {
             grid.slice = &taps.z.texel[z];
             grid.scale = &taps.z.weight[z];
             grid.outside_slice = taps.z.leaves ? taps.z.outside[z] : 0;
-            count_grid(grid, counted, count);
+            hear_grid(grid, counted, count);
         }
     }
-    filter_wide<storage>(texture, sampler.border, taps, out);
 }
 
 /// Both levels of a choice, each by `sample_level(level, lanes that count, colour)`, mixed.
@@ -167,7 +150,7 @@ HWY_INLINE void mix_sampled_levels(const LevelChoice& choice, WaveMask mask, Cou
     WaveColor coarser;
     begin_level(choice.fraction, true, count);
     sample_level(choice.coarser, mask & mixing, coarser);
-    mix_levels<storage>(choice.fraction, coarser, out);
+    if constexpr (Count::kReads) mix_levels<storage>(choice.fraction, coarser, out);
 }
 
 /// Kernels of at most W = 1 or 2 taps an axis; `nearest` lanes take one.
@@ -242,6 +225,7 @@ HWY_NOINLINE void sample_two_kernels(Texture& texture, const SamplerState& sampl
     WaveColor small;
     sample_lanes_apart<storage>(texture, sampler, sampler.magnify, at, choice, magnified, count, out);
     sample_lanes_apart<storage>(texture, sampler, sampler.minify, at, choice, minified, count, small);
+    if constexpr (!Count::kReads) return;
     const FloatTag d;
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
         const auto lanes = lanes_of(d, magnified, i);
@@ -262,10 +246,13 @@ HWY_INLINE void sample_stored(Texture& texture, const SamplerState& sampler, con
 }
 
 /// Samples the levels of `choice` at `at` and mixes them: one lookup, or one probe of it. Lanes outside `mask`, which is not 0, repeat an
-/// active one in `at` and in `choice`, so that they read what is read anyway; what they get is unspecified but initialised.
+/// active one in `at` and in `choice`, so that they read what is read anyway; what they get is unspecified but initialised. A policy that
+/// does not read leaves `out` alone.
 template <class Count>
 HWY_INLINE void sample_levels(Texture& texture, const SamplerState& sampler, const WavePosition& at, const LevelChoice& choice,
                               WaveMask mask, Count& count, WaveColor& out) {
+    // Who only listens does not care how texels are stored.
+    if constexpr (!Count::kReads) return sample_stored<StorageClass::Packed32>(texture, sampler, at, choice, mask, count, out);
     switch (texture.texel_layout().storage) {
         case StorageClass::Packed32: return sample_stored<StorageClass::Packed32>(texture, sampler, at, choice, mask, count, out);
         case StorageClass::Packed64: return sample_stored<StorageClass::Packed64>(texture, sampler, at, choice, mask, count, out);

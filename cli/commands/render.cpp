@@ -47,7 +47,7 @@ shading::RenderOptions frame_options(const RenderRequest& request, const shading
     options.background = request.tone.white_backdrop ? glm::vec3(0.0f) : request.light.background;
     options.coverage = request.tone.white_backdrop;
     options.aovs = std::move(aovs);
-    options.count = count;
+    options.fetches.count = count;
     options.tile_size = request.machine.tile_size;
     return options;
 }
@@ -64,7 +64,7 @@ double sample_count(const shading::RenderOptions& options) {
 }
 
 void print_fetches(std::ostream& out, const shading::RenderResult& result) {
-    const texunit::FetchCounts fetches = total_fetches(result);
+    const texunit::FetchCounts fetches = result.fetches->total();
     out << "Fetches: " << fetches.lookups << " lookups, " << fetches.taps << " taps, " << fetches.texels_requested << " texels";
     if (result.samples_shaded > 0)
         out << " (" << print_quantity(double(fetches.texels_requested) / double(result.samples_shaded)) << "per shaded sample)";
@@ -88,7 +88,7 @@ class RenderCommand : public Command {
                     [this](const std::string& text) { scenario_ = parse_scenario(text); });
         declare_render_options(line, request_);
         line.group("More output");
-        line.option("--aov", "LIST", "layers of an .exr: any of depth,normal,albedo,uv,lod,material,texels,spp",
+        line.option("--aov", "LIST", "layers of an .exr: any of depth,normal,albedo,uv,lod,material,texels,lines,spp",
                     [this](const std::string& text) { aovs_ = parse_aovs(text); });
         line.flag("--count", "count lookups, taps and texels", count_);
         line.option("--stats", "FILE", "the run's numbers as JSON", [this](const std::string& text) { stats_ = text; });

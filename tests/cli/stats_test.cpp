@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <memory>
 #include <set>
 
 namespace rawtexel::cli {
@@ -45,7 +46,11 @@ struct Sample {
         record.result.geometry.clipped = 3;
         record.work = texture_work(scene);
         record.times = {{0.3, 0.1, 0.2, 0.4}, 1.5, 0.25, 3.0};
-        if (counted) record.result.fetches = {{10, 40, 40}, {20, 60, 60}, {1, 2, 3}};
+        if (!counted) return;
+        record.result.fetches = std::make_unique<shading::FrameFetches>(shading::TextureSet(scene));
+        record.result.fetches->counts = {{11, 42, 43, {40, 3}}, {20, 60, 60, {60}}};
+        for (const int32_t texel : {0, 1, 17}) record.result.fetches->touched.bits(0).mark(texel);
+        record.result.fetches->touched.bits(1).mark(5);
     }
 };
 
@@ -68,8 +73,12 @@ TEST(Stats, HasTheKeysOfTheContract) {
     for (const char* key : {"triangles", "culled_frustum", "culled_backface", "culled_degenerate", "culled_small", "clipped", "binned",
                             "tiles", "tiles_empty", "hiz_rejected"})
         EXPECT_TRUE(json["geometry"].contains(key)) << key;
-    EXPECT_EQ(keys_of(json["texture"]), (Keys{"lookups", "taps", "texels_requested", "texels_per_sample", "performed"}));
-    ASSERT_EQ(json["textures"].size(), 3u);
+    EXPECT_EQ(keys_of(json["texture"]), (Keys{"lookups", "taps", "texels_requested", "texels_per_sample", "texels_unique", "blocks_touched",
+                                              "lines_32", "lines_64", "lines_128", "lines_stored_32", "lines_stored_64", "lines_stored_128",
+                                              "bytes_decoded", "bytes_stored", "overfetch", "layouts", "performed"}));
+    EXPECT_EQ(keys_of(json["texture"]["layouts"]), (Keys{"linear", "morton", "tiled-4k", "tiled-64k"}));
+    ASSERT_EQ(json["textures"].size(), 2u) << "two of three entries share a texture";
+    EXPECT_EQ(json["textures"][0]["per_level"].size(), 5u);
     for (const char* key :
          {"name", "format", "width", "height", "levels", "blocks_total", "lookups", "taps", "texels_requested", "performed"})
         EXPECT_TRUE(json["textures"][0].contains(key)) << key;
@@ -101,6 +110,14 @@ TEST(Stats, HoldsTheNumbersOfTheRun) {
     EXPECT_EQ(json["texture"]["lookups"], 31);
     EXPECT_EQ(json["texture"]["taps"], 102);
     EXPECT_EQ(json["texture"]["texels_requested"], 103);
+    EXPECT_EQ(json["texture"]["texels_unique"], 4);
+    EXPECT_EQ(json["texture"]["blocks_touched"], 3);
+    EXPECT_EQ(json["texture"]["bytes_decoded"], 3 * 64);
+    EXPECT_EQ(json["texture"]["overfetch"], 12.0);
+    EXPECT_EQ(json["textures"][0]["per_level"][0]["texels_requested"], 40);
+    EXPECT_EQ(json["textures"][0]["per_level"][0]["texels_unique"], 3);
+    EXPECT_EQ(json["textures"][0]["per_level"][1]["texels_unique"], 0);
+    EXPECT_EQ(json["textures"][0]["lookups"], 11);
     EXPECT_EQ(json["texture"]["texels_per_sample"], 1.03);
     EXPECT_EQ(json["textures"][1]["width"], 8);
     EXPECT_EQ(json["textures"][1]["format"], "rgba8-srgb");

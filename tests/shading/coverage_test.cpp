@@ -219,9 +219,9 @@ TEST_F(CoverageTest, CountsTheLookupOfAFragmentOnce) {
     RenderOptions options;
     options.camera = square_camera();
     options.width = options.height = 40;
-    options.count = true;
+    options.fetches.count = true;
     const RenderResult result = render(scene, Lighting{}, options, *executor_);
-    EXPECT_EQ(result.fetches[0].lookups, uint64_t(40 * 40));
+    EXPECT_EQ(result.fetches->counts[0].lookups, uint64_t(40 * 40));
     EXPECT_LT(result.samples_shaded, uint64_t(40 * 40));
     EXPECT_GT(result.samples_shaded, uint64_t(40 * 10));
 }

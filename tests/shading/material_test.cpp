@@ -246,7 +246,7 @@ TEST_F(MaterialTest, ScalesTheNormalMap) {
 
 /// A map is looked up once per shading point, and not at all where its factor makes it irrelevant.
 TEST_F(MaterialTest, LooksUpWhatMatters) {
-    options_.count = true;
+    options_.fetches.count = true;
     options_.spp = 1;
     const auto lookups = [&](const Material& material, const Lighting& lighting) {
         Scene scene;
@@ -254,7 +254,7 @@ TEST_F(MaterialTest, LooksUpWhatMatters) {
         add_object(scene, make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), material);
         const RenderResult result = render(scene, lighting, options_, *executor_);
         std::vector<uint64_t> per_pixel;
-        for (const texunit::FetchCounts& counts : result.fetches) per_pixel.push_back(counts.lookups / (64 * 64));
+        for (const texunit::FetchCounts& counts : result.fetches->counts) per_pixel.push_back(counts.lookups / (64 * 64));
         return per_pixel;
     };
     Material material;

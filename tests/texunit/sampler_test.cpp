@@ -36,9 +36,9 @@ TEST(Simd, ChoosesEverySetItSaysIsAvailable) {
 }
 
 TEST(FetchCounts, AddUp) {
-    FetchCounts sum{1, 20, 300};
-    sum += {4, 50, 600};
-    EXPECT_EQ(sum, (FetchCounts{5, 70, 900}));
+    FetchCounts sum{1, 20, 300, {100, 200}};
+    sum += {4, 50, 600, {0, 1, 599}};
+    EXPECT_EQ(sum, (FetchCounts{5, 70, 900, {100, 201, 599}}));
 }
 
 }  // namespace

@@ -1,0 +1,245 @@
+// Which fragments of a tile's sample ask for texels under a fetch model, told to a listener with their coordinates.
+#if defined(RAWTEXEL_SHADING_DEMANDED_LOOKUPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAWTEXEL_SHADING_DEMANDED_LOOKUPS_INL_H_
+#undef RAWTEXEL_SHADING_DEMANDED_LOOKUPS_INL_H_
+#else
+#define RAWTEXEL_SHADING_DEMANDED_LOOKUPS_INL_H_
+#endif
+
+#include "shading/coordinates-inl.h"
+#include "shading/derivatives-inl.h"
+#include "shading/fetch_options.h"
+#include "shading/lookup_listener.h"
+#include "shading/tile.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+
+HWY_BEFORE_NAMESPACE();
+namespace rawtexel::shading {
+namespace HWY_NAMESPACE {
+
+/// All lanes of the 2x2 quads that have a lane in `mask`.
+constexpr WaveMask whole_quads(WaveMask mask) {
+    const WaveMask pairs = mask | (mask & 0x55555555u) << 1 | (mask & 0xAAAAAAAAu) >> 1;
+    return pairs | (pairs & 0x00FF00FFu) << 8 | (pairs & 0xFF00FF00u) >> 8;
+}
+
+/// Fragments of one draw that ask together.
+struct AskingFragments {
+    const DrawState* draw = nullptr;
+    WaveMask base_color = 0;  ///< lanes that ask for the base colour
+    WaveMask others = 0;      ///< lanes that ask for every other map
+    WaveMask beyond = 0;      ///< lanes of quads that no fragment covers: their coordinates leave the triangle
+    bool one_triangle = false;
+    alignas(64) uint32_t setup_index[texunit::kWaveLanes];
+};
+
+class DemandedLookups {
+  public:
+    DemandedLookups(const TileInputs& inputs, int tile_x, int tile_y, TileScratch& scratch)
+        : inputs_(inputs),
+          frame_(*inputs.frame),
+          scratch_(scratch),
+          listener_(*scratch.listener),
+          tile_size_(frame_.options().tile_size),
+          tile_x_(tile_x * tile_size_),
+          tile_y_(tile_y * tile_size_) {
+        list_waves();
+    }
+
+    /// `offset`: of all pixels, where each has not its own.
+    void tell_sample(uint32_t sample, raster::SampleOffset offset) {
+        wave_.sample = sample;
+        std::fill_n(offset_, texunit::kWaveLanes, offset);
+        const std::span<const LoggedCandidate> candidates = scratch_.candidates.sorted();
+        for (const WavePlace& place : waves_) {
+            wave_.index = place.index;
+            wave_.x = tile_x_ + place.x;
+            wave_.y = tile_y_ + place.y;
+            if (inputs_.pixel_jitter == PixelJitter::Pixel) load_offsets(place);
+            find_surface(place);
+            const auto of_wave = std::ranges::equal_range(candidates, uint32_t(place.index), {}, &LoggedCandidate::wave);
+            listener_.begin_wave(wave_);
+            if (inputs_.fetch_model == FetchModel::Visible) {
+                tell_visible(place, {of_wave.begin(), of_wave.end()});
+            } else {
+                for (const LoggedCandidate& candidate : of_wave) tell_drawn(candidate);
+            }
+            listener_.end_wave();
+        }
+        listener_.end_sample();
+    }
+
+  private:
+    struct WavePlace {
+        int x, y;  ///< upper left pixel, in the tile
+        size_t index;
+    };
+
+    /// Waves with pixels to count, in Morton order.
+    void list_waves() {
+        const int waves_x = tile_size_ / texunit::kWaveWidth, waves = tile_size_ * tile_size_ / texunit::kWaveLanes;
+        // Bits of column and row alternate, column first; a tile has twice as many rows as columns, whose last bit stands on top.
+        for (int code = 0; code < waves; ++code) {
+            int column = 0, row = 0;
+            for (int bit = 0; bit < 6; ++bit) {
+                column |= (code >> (2 * bit) & 1) << bit;
+                row |= (code >> (2 * bit + 1) & 1) << bit;
+            }
+            // For the code's top bit the alternation would give the column one bit too many.
+            if (column >= waves_x) {
+                column -= waves_x;
+                row |= waves_x;
+            }
+            const WavePlace place{column * texunit::kWaveWidth, row * texunit::kWaveHeight, size_t(row * waves_x + column)};
+            if (lanes_inside(inputs_.visible, tile_x_ + place.x, tile_y_ + place.y) != 0) waves_.push_back(place);
+        }
+    }
+
+    void load_offsets(const WavePlace& place) {
+        for (int row = 0; row < texunit::kWaveHeight; ++row) {
+            const size_t pixel = size_t((place.y + row) * tile_size_ + place.x);
+            std::copy_n(&scratch_.offsets[pixel], texunit::kWaveWidth, offset_ + row * texunit::kWaveWidth);
+        }
+    }
+
+    size_t pixel(const WavePlace& place, int lane) const {
+        return size_t((place.y + lane / texunit::kWaveWidth) * tile_size_ + place.x + lane % texunit::kWaveWidth);
+    }
+
+    void find_surface(const WavePlace& place) {
+        wave_.surface = lanes_inside(inputs_.visible, wave_.x, wave_.y);
+        for (int lane = 0; lane < texunit::kWaveLanes; ++lane) {
+            surface_[lane] = scratch_.visibility.triangle[pixel(place, lane)];
+            if (surface_[lane] == raster::kNoTriangle) wave_.surface &= ~(WaveMask(1) << lane);
+        }
+    }
+
+    // --- visible
+
+    void tell_visible(const WavePlace& place, std::span<const LoggedCandidate> candidates) {
+        for (const LoggedCandidate& candidate : candidates) {
+            asking_ = {};
+            asking_.base_color = discarded_before_surface(place, candidate);
+            set_triangle(candidate.setup_index);
+            tell(true);
+        }
+        for (WaveMask rest = wave_.surface; rest != 0;) rest &= ~tell_surface(rest);
+    }
+
+    /// Lanes that the candidate let through, and in which it lies before the surface that is seen.
+    WaveMask discarded_before_surface(const WavePlace& place, const LoggedCandidate& candidate) const {
+        WaveMask before = 0;
+        for (WaveMask rest = candidate.lanes & ~candidate.covered; rest != 0; rest &= rest - 1) {
+            const int lane = std::countr_zero(rest);
+            const uint32_t surface = scratch_.visibility.triangle[pixel(place, lane)];
+            const float depth = scratch_.visibility.depth[pixel(place, lane)];
+            const bool first = surface == raster::kNoTriangle || candidate.depth[lane] > depth ||
+                               (candidate.depth[lane] == depth &&
+                                frame_.triangle(candidate.setup_index).triangle_id < frame_.triangle(surface).triangle_id);
+            before |= WaveMask{first} << lane;
+        }
+        return before;
+    }
+
+    /// Tells of the lanes of `rest` that see the draw which its first lane sees; returns them.
+    WaveMask tell_surface(WaveMask rest) {
+        const uint32_t first = surface_[std::countr_zero(rest)];
+        const uint32_t draw = frame_.triangle(first).draw;
+        asking_ = {};
+        asking_.draw = &inputs_.draws[draw];
+        asking_.one_triangle = true;
+        std::fill_n(asking_.setup_index, texunit::kWaveLanes, first);
+        for (WaveMask lanes = rest; lanes != 0; lanes &= lanes - 1) {
+            const int lane = std::countr_zero(lanes);
+            if (surface_[lane] != first && frame_.triangle(surface_[lane]).draw != draw) continue;
+            asking_.others |= WaveMask(1) << lane;
+            asking_.setup_index[lane] = surface_[lane];
+            asking_.one_triangle &= surface_[lane] == first;
+        }
+        asking_.base_color = asking_.others;
+        tell(false);
+        return asking_.others;
+    }
+
+    // --- forward and quad
+
+    void tell_drawn(const LoggedCandidate& candidate) {
+        asking_ = {};
+        asking_.base_color = candidate.lanes;
+        asking_.others = candidate.covered;
+        if (inputs_.fetch_model == FetchModel::Quad) {
+            // Quads end where the frame or the crop does, so that every lookup belongs to a pixel.
+            const WaveMask inside = lanes_inside(inputs_.visible, wave_.x, wave_.y);
+            asking_.base_color = whole_quads(candidate.lanes) & inside;
+            asking_.others = whole_quads(candidate.covered) & inside;
+            asking_.beyond = asking_.base_color & ~candidate.lanes;
+        }
+        set_triangle(candidate.setup_index);
+        tell(candidate.covered == 0);
+    }
+
+    void set_triangle(uint32_t setup_index) {
+        asking_.draw = &inputs_.draws[frame_.triangle(setup_index).draw];
+        asking_.one_triangle = true;
+        std::fill_n(asking_.setup_index, texunit::kWaveLanes, setup_index);
+    }
+
+    // --- all of them
+
+    void tell(bool let_through) {
+        const MaterialState& material = *asking_.draw->material;
+        if (asking_.base_color == 0) return;
+        listener_.fragments({asking_.draw, asking_.base_color, asking_.setup_index, let_through});
+        find_coordinates(material);
+        for (int slot = 0; slot < kMapSlots; ++slot) {
+            const MapState& map = material.maps[size_t(slot)];
+            const WaveMask lanes = slot == kBaseColor ? asking_.base_color : asking_.others;
+            if (map.texture && lanes != 0) listener_.lookup({MapSlot(slot), &map, lanes, &coordinates_[map.coordinates]});
+        }
+    }
+
+    void find_coordinates(const MaterialState& material) {
+        if (material.coordinate_count == 0) return;
+        find_barycentrics(inputs_.derivatives, {frame_, asking_.setup_index, offset_, wave_.x, wave_.y}, asking_.base_color, weights_);
+        const raster::BarycentricWave unclamped = weights_;
+        clamp_weights(weights_);
+        for (WaveMask lanes = asking_.beyond; lanes != 0; lanes &= lanes - 1) {
+            const int lane = std::countr_zero(lanes);
+            weights_.b1[lane] = unclamped.b1[lane];
+            weights_.b2[lane] = unclamped.b2[lane];
+        }
+        const Mesh& mesh = *asking_.draw->mesh;
+        const uint32_t* const indices = mesh.indices.data();
+        const auto vertices = [&](int lane) { return indices + size_t(frame_.triangle(asking_.setup_index[lane]).primitive) * 3; };
+        const auto interpolate = [&](const auto& corners) HWY_ATTR {
+            for (int k = 0; k < material.coordinate_count; ++k)
+                interpolate_coordinates(material.coordinates[size_t(k)], mesh, corners, weights_, coordinates_[k]);
+        };
+        if (asking_.one_triangle) return interpolate(OneTriangle{vertices(0)});
+        TrianglePerLane corners;
+        for (int lane = 0; lane < texunit::kWaveLanes; ++lane)
+            for (int k = 0; k < 3; ++k) corners.vertex[k][lane] = int32_t(vertices(lane)[k]);
+        interpolate(corners);
+    }
+
+    const TileInputs& inputs_;
+    const raster::Frame& frame_;
+    TileScratch& scratch_;
+    LookupListener& listener_;
+    int tile_size_, tile_x_, tile_y_;
+    std::vector<WavePlace> waves_;
+    ListenedWave wave_;
+    AskingFragments asking_;
+    uint32_t surface_[texunit::kWaveLanes];
+    alignas(64) raster::SampleOffset offset_[texunit::kWaveLanes];
+    raster::BarycentricWave weights_{};
+    texunit::WaveCoordinates coordinates_[kMapSlots]{};
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rawtexel::shading
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,157 @@
+#include "shading/fetch_tally.h"
+
+#include "texunit/footprint.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
+namespace rawtexel::shading {
+namespace {
+
+constexpr int kLineBytes = 64;
+
+/// splitmix64's mixing of bits.
+uint64_t hash(uint64_t key) {
+    key = (key ^ key >> 30) * 0xBF58476D1CE4E5B9u;
+    key = (key ^ key >> 27) * 0x94D049BB133111EBu;
+    return key ^ key >> 31;
+}
+
+}  // namespace
+
+void PixelLines::clear() {
+    std::fill(slots_.begin(), slots_.end(), 0);
+    used_ = 0;
+}
+
+bool PixelLines::add(uint32_t pixel, uint32_t texture, uint32_t line) {
+    assert(pixel < 1u << 14 && texture < 1u << 20 && line < 1u << 27);
+    const uint64_t key = (uint64_t{pixel} << 47 | uint64_t{texture} << 27 | line) + 1;
+    const size_t mask = slots_.size() - 1;
+    size_t slot = hash(key) & mask;
+    for (; slots_[slot] != 0; slot = (slot + 1) & mask) {
+        if (slots_[slot] == key) return false;
+    }
+    slots_[slot] = key;
+    if (2 * ++used_ > slots_.size()) grow();
+    return true;
+}
+
+void PixelLines::grow() {
+    std::vector<uint64_t> larger(2 * slots_.size());
+    for (const uint64_t key : slots_) {
+        if (key == 0) continue;
+        size_t slot = hash(key) & (larger.size() - 1);
+        while (larger[slot] != 0) slot = (slot + 1) & (larger.size() - 1);
+        larger[slot] = key;
+    }
+    slots_ = std::move(larger);
+}
+
+FetchTally::FetchTally(const TextureSet& set, const FetchOptions& options, const PixelRect& visible, int tile_size,
+                       std::vector<Image>& pixels, HandIn hand_in)
+    : set_(set),
+      options_(options),
+      visible_(visible),
+      tile_size_(tile_size),
+      pixels_(pixels),
+      hand_in_(std::move(hand_in)),
+      counts_(set.textures.size()),
+      touched_(set.texels()) {}
+
+void FetchTally::begin_tile(int tile_x, int tile_y) {
+    tile_x_ = tile_x;
+    tile_y_ = tile_y;
+    if (!sums_pixels()) return;
+    sums_.assign(size_t(tile_size_) * size_t(tile_size_), {});
+    lines_.clear();
+}
+
+void FetchTally::begin_wave(const ListenedWave& wave) {
+    wave_ = wave;
+    if (records()) recorder_.begin_wave(wave.x, wave.y, wave.sample);
+    if (sums_pixels()) wave_texels_ = {};
+}
+
+void FetchTally::lookup(const ListenedLookup& lookup) {
+    const uint32_t place = set_.place[lookup.map->texture_index];
+    texunit::FetchCounter counter;
+    counter.counts = &counts_[place];
+    counter.touched = touched_.bits(place);
+    counter.pixel = sums_pixels() ? &wave_texels_ : nullptr;
+    count_wave(*lookup.map->texture, lookup.map->sampler, *lookup.at, lookup.lanes, counter);
+    if (records()) {
+        recorder_.set_texture(place);
+        record_wave(*lookup.map->texture, lookup.map->sampler, *lookup.at, lookup.lanes, recorder_);
+    }
+    if (options_.pixel_layers) measure(lookup);
+}
+
+void FetchTally::measure(const ListenedLookup& lookup) {
+    texunit::WaveFootprint footprint;
+    measure_footprint(lookup.map->texture->levels(), lookup.map->sampler, *lookup.at, footprint);
+    for (texunit::WaveMask rest = lookup.lanes; rest != 0; rest &= rest - 1) {
+        const int lane = std::countr_zero(rest);
+        PixelSums& sums = sums_[pixel(lane)];
+        sums.level += double(footprint.lod[lane]);
+        sums.anisotropy += double(footprint.anisotropy[lane]);
+        ++sums.lookups;
+    }
+}
+
+size_t FetchTally::pixel(int lane) const {
+    const int x = wave_.x - tile_x_ * tile_size_ + lane % texunit::kWaveWidth;
+    const int y = wave_.y - tile_y_ * tile_size_ + lane / texunit::kWaveWidth;
+    return size_t(y) * size_t(tile_size_) + size_t(x);
+}
+
+void FetchTally::end_wave() {
+    if (sums_pixels()) sum_pixels_of_wave();
+    if (options_.needs_order()) recorder_.end_wave(stream_);
+}
+
+void FetchTally::sum_pixels_of_wave() {
+    for (int lane = 0; lane < texunit::kWaveLanes; ++lane) {
+        PixelSums& sums = sums_[pixel(lane)];
+        sums.texels += wave_texels_[lane];
+        sums.samples += wave_.surface >> lane & 1;
+        if (!records()) continue;
+        for (const texunit::TexelFetch fetch : recorder_.fetches(lane)) {
+            const auto bytes = uint64_t(bytes_per_texel(set_.textures[fetch.texture()]->texel_layout().storage));
+            const auto line = uint32_t(uint64_t(uint32_t(fetch.texel())) * bytes / kLineBytes);
+            sums.lines += lines_.add(uint32_t(pixel(lane)), fetch.texture(), line);
+        }
+    }
+}
+
+void FetchTally::end_sample() {
+    if (options_.needs_order()) hand_in_(tile_x_, tile_y_, stream_);
+}
+
+void FetchTally::end_tile() {
+    if (!sums_pixels()) return;
+    const auto put = [&](PixelCount count, int x, int y, float value) {
+        Image& image = pixels_[size_t(count)];
+        if (image.width > 0) *image.pixel(x - visible_.x0, y - visible_.y0) = value;
+    };
+    const int x0 = tile_x_ * tile_size_, y0 = tile_y_ * tile_size_;
+    for (int y = std::max(y0, visible_.y0); y < std::min(y0 + tile_size_, visible_.y1); ++y) {
+        for (int x = std::max(x0, visible_.x0); x < std::min(x0 + tile_size_, visible_.x1); ++x) {
+            const PixelSums& sums = sums_[size_t(y - y0) * size_t(tile_size_) + size_t(x - x0)];
+            const double lookups = std::max(sums.lookups, 1u);
+            put(PixelCount::TexelsRequested, x, y, float(sums.texels));
+            put(PixelCount::LinesPixel, x, y, float(sums.lines));
+            put(PixelCount::Level, x, y, float(sums.level / lookups));
+            put(PixelCount::Anisotropy, x, y, float(sums.anisotropy / lookups));
+            put(PixelCount::Samples, x, y, float(sums.samples));
+        }
+    }
+}
+
+void FetchTally::add_to(FrameFetches& frame) const {
+    for (size_t i = 0; i < counts_.size(); ++i) frame.counts[i] += counts_[i];
+    frame.touched.merge(touched_);
+}
+
+}  // namespace rawtexel::shading

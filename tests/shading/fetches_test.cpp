@@ -1,0 +1,336 @@
+// What a frame's lookups ask for, under every fetch model.
+#include "shading/fetch_account.h"
+#include "shading/render.h"
+#include "texunit/fetch_trace.h"
+
+#include "tests/shading/executor_kinds.h"
+#include "tests/shading/scene_parts.h"
+
+#include <gtest/gtest.h>
+#include <zstd.h>
+
+#include <cstring>
+#include <numeric>
+#include <set>
+#include <thread>
+#include <vector>
+
+namespace rawtexel::shading {
+namespace {
+
+using namespace test;
+
+double sum(const Image& image) { return std::accumulate(image.values.begin(), image.values.end(), 0.0); }
+
+class FetchesTest : public testing::Test {
+  protected:
+    RenderResult render_with(const RenderOptions& options, ExecutorKind kind = ExecutorKind::Threads, int threads = 1) const {
+        const std::unique_ptr<Executor> executor = make_executor(kind, threads);
+        return render(scene_, lighting_, options, *executor);
+    }
+    static RenderOptions busy_options() {
+        RenderOptions options;
+        options.width = 165;
+        options.height = 101;
+        options.camera = busy_camera();
+        options.spp = 2;
+        options.fetches.count = true;
+        return options;
+    }
+
+    std::unique_ptr<Executor> one_ = make_executor(ExecutorKind::Threads, 1);
+    Scene scene_ = make_busy_scene();
+    Lighting lighting_ = busy_lighting(scene_, *one_);
+};
+
+/// A stack of full-frame quads, the first the nearest, of 64x64 pixels.
+class StackTest : public testing::Test {
+  protected:
+    StackTest() {
+        options_.width = options_.height = 64;
+        options_.camera = square_camera();
+        options_.fetches.count = true;
+    }
+    /// Adds a quad at height z with a texture whose alpha is everywhere `alpha`.
+    void add(float z, AlphaMode mode, float alpha = 1.0f) {
+        scene_.textures.push_back(make_texture(8, 8, [alpha](int, int) { return glm::vec4(0.5f, 0.5f, 0.5f, alpha); }));
+        Material material = unlit(glm::vec4(1.0f), mode);
+        material.maps[kBaseColor].texture = int(scene_.textures.size()) - 1;
+        add_object(scene_, make_quad({-1, -1, z}, {2, 0, 0}, {0, 2, 0}), material);
+    }
+    /// Lookups per pixel of every quad.
+    std::vector<double> lookups(FetchModel model) {
+        options_.fetches.model = model;
+        const RenderResult result = render(scene_, Lighting{}, options_, *executor_);
+        std::vector<double> per_pixel;
+        for (const texunit::FetchCounts& counts : result.fetches->counts) per_pixel.push_back(double(counts.lookups) / (64 * 64));
+        return per_pixel;
+    }
+
+    std::unique_ptr<Executor> executor_ = make_executor(ExecutorKind::Threads, 1);
+    Scene scene_;
+    RenderOptions options_;
+};
+
+using PerQuad = std::vector<double>;
+
+TEST_F(StackTest, VisibleAsksForWhatIsSeenAndWhatLetsItThrough) {
+    add(0.9f, AlphaMode::Mask, 0.0f);
+    add(0.5f, AlphaMode::Opaque);
+    add(0.7f, AlphaMode::Mask, 0.0f);
+    add(0.2f, AlphaMode::Mask, 0.0f);
+    add(0.0f, AlphaMode::Opaque);
+    EXPECT_EQ(lookups(FetchModel::Visible), (PerQuad{1, 1, 1, 0, 0}));
+}
+
+TEST_F(StackTest, ForwardAsksInSceneOrder) {
+    add(0.0f, AlphaMode::Opaque);
+    add(0.9f, AlphaMode::Mask, 1.0f);
+    add(0.5f, AlphaMode::Opaque);
+    add(0.3f, AlphaMode::Opaque);
+    add(0.7f, AlphaMode::Mask, 1.0f);
+    // Far before near is overdraw; MASK comes after all that is opaque, and what it hides is not asked for.
+    EXPECT_EQ(lookups(FetchModel::Forward), (PerQuad{1, 1, 1, 0, 0}));
+    EXPECT_EQ(lookups(FetchModel::Visible), (PerQuad{0, 1, 0, 0, 0}));
+}
+
+TEST_F(StackTest, BlendedLayersAskUpToTheOneThatIsDrawn) {
+    add(0.9f, AlphaMode::Blend, 0.25f);
+    add(0.8f, AlphaMode::Blend, 0.5f);
+    add(0.0f, AlphaMode::Opaque);
+    options_.spp = 64;
+    const std::vector<double> found = lookups(FetchModel::Visible);
+    // Of 64*64*64 samples, all ask the first, 3/4 the second, 3/8 the last; five standard deviations.
+    EXPECT_EQ(found[0], 64.0);
+    EXPECT_NEAR(found[1], 48.0, 64 * 5 * std::sqrt(0.25 * 0.75 / (64.0 * 64 * 64)));
+    EXPECT_NEAR(found[2], 24.0, 64 * 5 * std::sqrt(0.375 * 0.625 / (64.0 * 64 * 64)));
+}
+
+TEST_F(StackTest, QuadsAskForTheirHelpersToo) {
+    // One triangle over half of the frame: its diagonal cuts quads in two.
+    Mesh half = make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
+    half.indices.resize(3);
+    scene_.textures.push_back(make_noise_texture(64, 64, 1));
+    Material material = unlit(glm::vec4(1.0f));
+    material.maps[kBaseColor].texture = 0;
+    add_object(scene_, half, material);
+    options_.fetches.model = FetchModel::Forward;
+    const RenderResult forward = render(scene_, Lighting{}, options_, *executor_);
+    options_.fetches.model = FetchModel::Quad;
+    const RenderResult quad = render(scene_, Lighting{}, options_, *executor_);
+    EXPECT_EQ(forward.fetches->counts[0].lookups, forward.samples_shaded);
+    const uint64_t covered = forward.samples_shaded;
+    // 32 quads lie on the diagonal, each with one or three lanes of four; the top-left rule gives the centres on it to one side.
+    const uint64_t expected = covered % 64 == 32 ? covered + 32 * (covered < 2048 ? 3 : 1) : 0;
+    EXPECT_EQ(quad.fetches->counts[0].lookups, expected) << covered;
+}
+
+TEST_F(StackTest, CountsOfAFullFrameQuadAreAnalytic) {
+    // 64 pixels over 24.3 texels, at no texel's centre; then 64 pixels over 150 texels: lambda = 1.23.
+    scene_.textures.push_back(make_noise_texture(256, 256, 1));
+    Material material = unlit(glm::vec4(1.0f));
+    material.maps[kBaseColor].texture = 0;
+    for (const auto& [texels, levels] : {std::pair{24.3f, 1}, {150.0f, 2}}) {
+        Scene scene = scene_;
+        add_object(scene, make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, glm::vec2(texels / 256)), material);
+        for (const auto& [kernel, taps] : {std::pair{texunit::Kernel::Nearest, 1},
+                                           {texunit::Kernel::Bilinear, 4},
+                                           {texunit::Kernel::Quadratic, 9},
+                                           {texunit::Kernel::BSpline, 16},
+                                           {texunit::Kernel::CatmullRom, 16},
+                                           {texunit::Kernel::Lanczos2, 16},
+                                           {texunit::Kernel::Lanczos3, 36}}) {
+            options_.filter = kernel;
+            options_.mip = texunit::MipMode::Linear;
+            const RenderResult result = render(scene, Lighting{}, options_, *executor_);
+            const texunit::FetchCounts& counts = result.fetches->counts[0];
+            EXPECT_EQ(counts.lookups, uint64_t(64 * 64));
+            EXPECT_EQ(counts.taps, uint64_t(64 * 64 * taps * levels)) << to_string(kernel) << ' ' << texels;
+            EXPECT_EQ(counts.texels_requested, counts.taps);
+        }
+    }
+}
+
+TEST_F(FetchesTest, AreTheSameForAnyThreadsAndTileSize) {
+    for (const FetchModel model : {FetchModel::Visible, FetchModel::Forward, FetchModel::Quad}) {
+        RenderOptions options = busy_options();
+        options.fetches.model = model;
+        const RenderResult expected = render_with(options);
+        ASSERT_GT(expected.fetches->total().texels_requested, 0u);
+        for (const int tile_size : {32, 128}) {
+            options.tile_size = tile_size;
+            for (const ExecutorKind kind : executor_kinds()) {
+                const RenderResult other = render_with(options, kind, 3);
+                EXPECT_EQ(other.fetches->counts, expected.fetches->counts) << to_string(model) << ' ' << tile_size;
+                EXPECT_EQ(other.fetches->measure(), expected.fetches->measure()) << to_string(model) << ' ' << tile_size;
+            }
+        }
+    }
+}
+
+TEST_F(FetchesTest, GrowFromVisibleToForwardToQuads) {
+    RenderOptions options = busy_options();
+    std::vector<uint64_t> lookups;
+    for (const FetchModel model : {FetchModel::Visible, FetchModel::Forward, FetchModel::Quad}) {
+        options.fetches.model = model;
+        lookups.push_back(render_with(options).fetches->total().lookups);
+    }
+    EXPECT_LT(lookups[0], lookups[1]);
+    EXPECT_LT(lookups[1], lookups[2]);
+}
+
+TEST_F(FetchesTest, SumOverPixelsToTheCounters) {
+    for (const FetchModel model : {FetchModel::Visible, FetchModel::Forward, FetchModel::Quad}) {
+        RenderOptions options = busy_options();
+        options.fetches.model = model;
+        options.fetches.pixel_layers = true;
+        std::string error;
+        options.fetches.cache = texunit::parse_cache_spec("l1=4K:4,l2=32K:8,cores=2", error);
+        const RenderResult result = render_with(options);
+        const FrameFetches& fetches = *result.fetches;
+        texunit::TouchedLines touched;
+        for (const auto& levels : fetches.measure())
+            for (const texunit::TouchedLines& level : levels) touched += level;
+        texunit::CacheCounts cache;
+        for (const auto& levels : fetches.cache)
+            for (const texunit::CacheCounts& level : levels) cache += level;
+        EXPECT_EQ(sum(fetches.pixel(PixelCount::TexelsRequested)), double(fetches.total().texels_requested)) << to_string(model);
+        EXPECT_EQ(sum(fetches.pixel(PixelCount::LinesFirst)), double(touched.decoded.of_64()));
+        EXPECT_EQ(sum(fetches.pixel(PixelCount::BlocksFirst)), double(touched.blocks_touched));
+        EXPECT_EQ(sum(fetches.pixel(PixelCount::L1Miss)), double(cache.l1_misses));
+        EXPECT_EQ(sum(fetches.pixel(PixelCount::L2Miss)), double(cache.l2_misses));
+        EXPECT_EQ(sum(fetches.pixel(PixelCount::Samples)), double(result.samples_shaded));
+        EXPECT_GE(sum(fetches.pixel(PixelCount::LinesPixel)), double(touched.decoded.of_64()));
+        EXPECT_EQ(cache.l1_hits + cache.l1_misses, fetches.total().texels_requested);
+        EXPECT_EQ(cache.l2_hits + cache.l2_misses, cache.l1_misses);
+        EXPECT_EQ(cache.compulsory + cache.capacity + cache.conflict, cache.l1_misses);
+        for (const float anisotropy : fetches.pixel(PixelCount::Anisotropy).values) EXPECT_TRUE(anisotropy == 0 || anisotropy >= 1);
+    }
+}
+
+TEST_F(FetchesTest, OrderedAccountsDoNotDependOnThreadsOrTileSize) {
+    RenderOptions options = busy_options();
+    options.fetches.pixel_layers = true;
+    options.fetches.cache = texunit::CacheSpec{};
+    options.fetches.cache->l1 = {1024, 2};
+    options.fetches.cache->cores = 3;
+    const RenderResult expected = render_with(options);
+    for (const int tile_size : {32, 128}) {
+        options.tile_size = tile_size;
+        for (const ExecutorKind kind : executor_kinds()) {
+            const RenderResult other = render_with(options, kind, 3);
+            EXPECT_EQ(other.fetches->cache, expected.fetches->cache) << tile_size;
+            for (int i = 0; i < kPixelCounts; ++i) {
+                EXPECT_EQ(other.fetches->pixels[size_t(i)].values, expected.fetches->pixels[size_t(i)].values) << to_string(PixelCount(i));
+            }
+            EXPECT_EQ(other.radiance.values, expected.radiance.values);
+        }
+    }
+}
+
+std::vector<std::byte> decompress(const std::vector<std::byte>& compressed) {
+    std::vector<std::byte> plain(size_t{256} << 20);
+    const size_t size = ZSTD_decompress(plain.data(), plain.size(), compressed.data(), compressed.size());
+    EXPECT_FALSE(ZSTD_isError(size)) << ZSTD_getErrorName(size);
+    plain.resize(ZSTD_isError(size) ? 0 : size);
+    return plain;
+}
+
+TEST_F(FetchesTest, AreTracedOneByOneInCanonicalOrder) {
+    RenderOptions options = busy_options();
+    std::vector<std::byte> first;
+    for (const int threads : {1, 3}) {
+        std::vector<std::byte> file;
+        texunit::FetchTraceWriter writer([&](std::span<const std::byte> bytes) { file.insert(file.end(), bytes.begin(), bytes.end()); });
+        options.fetches.trace = &writer;
+        const RenderResult result = render_with(options, ExecutorKind::Threads, threads);
+        writer.end();
+        if (threads > 1) {
+            EXPECT_TRUE(file == first);
+            continue;
+        }
+        first = file;
+        const std::vector<std::byte> plain = decompress(file);
+        const std::byte* at = plain.data();
+        ASSERT_EQ(std::memcmp(at, texunit::kTraceMagic.data(), 8), 0);
+        at += 8;
+        const auto number = [&] {
+            uint32_t value;
+            std::memcpy(&value, at, 4);
+            at += 4;
+            return value;
+        };
+        const uint32_t names = number();
+        ASSERT_EQ(names, result.fetches->textures.size());
+        for (uint32_t i = 0; i < names; ++i) {
+            const uint32_t size = number();
+            EXPECT_EQ(std::string(reinterpret_cast<const char*>(at), size), result.fetches->textures[i]->name());
+            at += size;
+        }
+        const auto bytes = size_t(plain.data() + plain.size() - at);
+        ASSERT_EQ(bytes, sizeof(texunit::TraceRecord) * result.fetches->total().texels_requested);
+        std::set<uint64_t> lines;
+        int64_t tile_before = -1;
+        for (; at < plain.data() + plain.size(); at += sizeof(texunit::TraceRecord)) {
+            texunit::TraceRecord record;
+            std::memcpy(&record, at, sizeof(record));
+            const int64_t tile = record.pixel_y / 64 * 3 + record.pixel_x / 64;
+            ASSERT_GE(tile, tile_before) << "tiles row by row";
+            tile_before = tile;
+            ASSERT_LT(record.x, result.fetches->textures[record.texture]->levels().width[record.level]);
+            ASSERT_LT(record.y, result.fetches->textures[record.texture]->levels().height[record.level]);
+            lines.insert(record.decoded / 64);
+        }
+        texunit::TouchedLines touched;
+        for (const auto& levels : result.fetches->measure())
+            for (const texunit::TouchedLines& level : levels) touched += level;
+        EXPECT_EQ(lines.size(), touched.decoded.of_64());
+    }
+}
+
+TEST(FetchSequencer, HandsOnInTheOrderOfTilesWhoeverComesFirst) {
+    constexpr int kTiles = 40, kStreams = 5;
+    std::vector<std::pair<int64_t, uint32_t>> seen;
+    FetchSequencer sequencer([&](int64_t tile, const texunit::FetchStream& stream) { seen.emplace_back(tile, stream.pixels[0].sample); });
+    const auto work = [&] {
+        for (int64_t tile; (tile = sequencer.next_tile()) < kTiles;) {
+            for (uint32_t n = 0; n < kStreams; ++n) {
+                texunit::FetchStream stream;
+                // Some tiles hand in more than may wait.
+                stream.pixels.assign(tile % 7 == 3 ? size_t{1} << 20 : 1, {0, 0, n, 0});
+                if (tile % 3 == 0) std::this_thread::yield();
+                sequencer.hand_in(tile, stream);
+                EXPECT_TRUE(stream.empty());
+            }
+            sequencer.finish(tile);
+        }
+    };
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i) threads.emplace_back(work);
+    for (std::thread& thread : threads) thread.join();
+    ASSERT_EQ(seen.size(), size_t(kTiles * kStreams));
+    for (size_t i = 0; i < seen.size(); ++i) {
+        EXPECT_EQ(seen[i].first, int64_t(i) / kStreams);
+        EXPECT_EQ(seen[i].second, i % kStreams);
+    }
+}
+
+TEST(FetchSequencer, LetsEveryoneGoWhenATileFails) {
+    FetchSequencer sequencer([](int64_t, const texunit::FetchStream&) {});
+    const int64_t failing = sequencer.next_tile(), waiting = sequencer.next_tile();
+    std::thread waiter([&] {
+        for (int n = 0; n < 3; ++n) {
+            texunit::FetchStream stream;
+            stream.pixels.assign(size_t{2} << 20, {});
+            sequencer.hand_in(waiting, stream);
+        }
+        sequencer.finish(waiting);
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(failing, 0);
+    sequencer.abandon();
+    waiter.join();
+}
+
+}  // namespace
+}  // namespace rawtexel::shading
