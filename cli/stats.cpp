@@ -7,50 +7,12 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <array>
 #include <unordered_set>
 
 namespace rawtexel::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::array kCounters{
-    CounterInfo{"image.width", "pixels of the image written"},
-    CounterInfo{"image.height", "pixels of the image written"},
-    CounterInfo{"image.spp", "samples per pixel"},
-    CounterInfo{"image.samples_shaded", "samples that saw a surface; the background is left out"},
-    CounterInfo{"frame_s.min", "wall seconds of the fastest frame, geometry to resolved image"},
-    CounterInfo{"frame_s.median", "wall seconds of the median frame"},
-    CounterInfo{"frame_s.n", "frames timed (--repeat)"},
-    CounterInfo{"time_s.load", "wall seconds until the first frame: scene, environment, shadow map"},
-    CounterInfo{"time_s.geometry", "wall seconds: transform, clip, set up, bin"},
-    CounterInfo{"time_s.raster", "seconds of visibility, summed over threads"},
-    CounterInfo{"time_s.shade", "seconds of lookups and shading, summed over threads"},
-    CounterInfo{"time_s.write", "wall seconds: display transform, encoding, file"},
-    CounterInfo{"time_s.total", "wall seconds of the whole run"},
-    CounterInfo{"memory_bytes.peak_rss", "most memory resident at any time"},
-    CounterInfo{"memory_bytes.textures_stored", "bytes of the textures as their files hold them"},
-    CounterInfo{"memory_bytes.textures_decoded", "bytes of the blocks decoded or generated"},
-    CounterInfo{"geometry.triangles", "triangles of the scene, over all instances"},
-    CounterInfo{"geometry.culled_frustum", "triangles outside the view"},
-    CounterInfo{"geometry.culled_backface", "triangles seen from behind"},
-    CounterInfo{"geometry.culled_degenerate", "triangles without area after snapping"},
-    CounterInfo{"geometry.culled_small", "triangles that no sample point can hit"},
-    CounterInfo{"geometry.culled_nonfinite", "triangles with a vertex that is not a number"},
-    CounterInfo{"geometry.clipped", "triangles cut by the near plane or the guard band"},
-    CounterInfo{"geometry.binned", "triangles that reached a tile"},
-    CounterInfo{"geometry.tiles", "tiles of the image"},
-    CounterInfo{"geometry.tiles_empty", "tiles without a triangle"},
-    CounterInfo{"geometry.hiz_rejected", "triangles or blocks hidden by what a tile holds already"},
-    CounterInfo{"texture.lookups", "maps asked at shading points (--count)"},
-    CounterInfo{"texture.taps", "taps weighed (--count)"},
-    CounterInfo{"texture.texels_requested", "texel reads, with repeats (--count)"},
-    CounterInfo{"texture.texels_per_sample", "texels_requested over samples_shaded (--count)"},
-    CounterInfo{"texture.performed.blocks_decoded", "4x4 blocks read from files or generators"},
-    CounterInfo{"texture.performed.blocks_decoded_mips", "4x4 blocks of levels made from finer ones"},
-    CounterInfo{"textures[].blocks_total", "4x4 blocks of all levels of one texture; the keys of texture follow"},
-};
 
 uint64_t peak_resident_bytes() {
     rusage usage{};
@@ -116,6 +78,16 @@ void add_fetches(Json& json, const texunit::FetchCounts& counts, uint64_t sample
     if (samples_shaded > 0) json["texels_per_sample"] = double(counts.texels_requested) / double(samples_shaded);
 }
 
+/// The choices that made the lookups, by the names of their options.
+Json lookup_choices(const LookupOptions& lookup) {
+    Json json = Json::object();
+    for (auto [name, choice] : print_choices(lookup)) {
+        std::ranges::replace(name, '-', '_');
+        json[name] = choice;
+    }
+    return json;
+}
+
 Json performed_numbers(const texunit::TextureWork& work) {
     return {{"blocks_decoded", work.blocks_decoded}, {"blocks_decoded_mips", work.blocks_decoded_mips}};
 }
@@ -154,6 +126,7 @@ std::string stats_json(const RunRecord& record, const shading::Scene& scene) {
     const Json json{{"rawtexel", version()},
                     {"scene", record.scene},
                     {"command", record.command},
+                    {"lookup", lookup_choices(record.request.lookup)},
                     {"image", image_numbers(record)},
                     {"frame_s", frame_numbers(record.times.frame_s)},
                     {"time_s", time_numbers(record)},
@@ -164,7 +137,5 @@ std::string stats_json(const RunRecord& record, const shading::Scene& scene) {
     // Names come from files: bytes that are no UTF-8 are replaced, not refused.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
-
-std::span<const CounterInfo> all_counters() { return kCounters; }
 
 }  // namespace rawtexel::cli
