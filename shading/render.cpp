@@ -87,7 +87,11 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
     const Clock::time_point start = Clock::now();
     const PixelRect visible = visible_pixels(options);
     const bool indirect_light = lighting.environment != nullptr || lighting.ambient != 0.0f;
-    const DrawStates states = make_draw_states(scene, {.filter = options.filter, .mip = options.mip, .footprint = options.footprint, .precision = options.precision, .occlusion = indirect_light});
+    const DrawStates states = make_draw_states(scene, {.filter = options.filter,
+                                                       .mip = options.mip,
+                                                       .footprint = options.footprint,
+                                                       .precision = options.precision,
+                                                       .occlusion = indirect_light});
     const raster::Frame frame = make_frame(states, options, visible, executor);
 
     RenderResult result;

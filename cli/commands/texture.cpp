@@ -9,6 +9,8 @@
 #include "cli/texture_info.h"
 #include "cli/texture_options.h"
 #include "cli/version.h"
+#include "scenes/output_file.h"
+#include "texunit/dds_writer.h"
 
 #include <filesystem>
 
@@ -51,6 +53,8 @@ std::string level_path(const std::string& path, int level) {
     return name.replace_extension().string() + ".level" + std::to_string(level) + extension;
 }
 
+bool is_dds(const std::string& path) { return scenes::extension_of(path) == "dds"; }
+
 class TextureCommand : public Command {
   public:
     std::string_view name() const override { return "texture"; }
@@ -59,7 +63,7 @@ class TextureCommand : public Command {
         return "Tells what is inside a texture file (info), or writes its texels as images: of one level (decode), or of every level of "
                "its "
                "pyramid (mips), those that the file lacks included. Formats of floats get linear values, formats of 8 bits the texture's "
-               "own codes.";
+               "own codes. mips writes all of a texture into one file where that is a .dds.";
     }
 
     void declare(CommandLine& line) override {
@@ -83,7 +87,7 @@ class TextureCommand : public Command {
         const size_t action = parse_word("texture", words_[0], {"info", "decode", "mips"});
         check_options(action);
         if (action == 0) return tell(invocation);
-        return write(invocation, action == 2);
+        return is_dds(output_) ? write_dds(invocation) : write_images(invocation, action == 2);
     }
 
   private:
@@ -95,7 +99,8 @@ class TextureCommand : public Command {
 
     void check_options(size_t action) const;
     int tell(const Invocation& invocation) const;
-    int write(const Invocation& invocation, bool every_level) const;
+    int write_dds(const Invocation& invocation) const;
+    int write_images(const Invocation& invocation, bool every_level) const;
 
     std::vector<std::string> words_;
     std::string output_;
@@ -116,7 +121,8 @@ void TextureCommand::check_options(size_t action) const {
     if (is_info && (choice_.layer || choice_.face || choice_.depth_slice)) refuse("--layer, --face or --slice");
     if (is_info) return;
     if (output_.empty()) throw UsageError("-o IMAGE is missing (usage: rawtexel texture " + words_[0] + " FILE -o IMAGE)");
-    check_image_format("-o", output_);
+    if (action != 2 || !is_dds(output_)) return check_image_format("-o", output_);
+    if (choice_.layer || choice_.face || choice_.depth_slice) throw UsageError("-o: a .dds file holds every layer, face and slice");
 }
 
 int TextureCommand::tell(const Invocation& invocation) const {
@@ -127,7 +133,17 @@ int TextureCommand::tell(const Invocation& invocation) const {
     return kDone;
 }
 
-int TextureCommand::write(const Invocation& invocation, bool every_level) const {
+/// The whole texture as one file.
+int TextureCommand::write_dds(const Invocation& invocation) const {
+    const std::string& path = words_[1];
+    check_outputs(std::vector<OutputFile>{{"-o", output_}}, {&path, 1});
+    Texture texture(path, open_texture_file(path, color_space_, files_).source, {.mip_storage = mip_storage_});
+    scenes::write_file(output_, texunit::encode_dds(texture));
+    invocation.out << "Saved: " << output_ << '\n';
+    return kDone;
+}
+
+int TextureCommand::write_images(const Invocation& invocation, bool every_level) const {
     const std::string& path = words_[1];
     TextureFile file = open_texture_file(path, color_space_, files_);
     check_holds_texels("-o", output_, file.source->format());

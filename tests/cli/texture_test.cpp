@@ -216,6 +216,24 @@ TEST(TextureMips, WritesOneImageALevel) {
         expect_codes(scenes::read_image(folder / ("v.level" + std::to_string(level) + ".png"), false), level, 7 >> level);
 }
 
+TEST(TextureMips, WritesTheWholePyramidIntoOneDds) {
+    const TemporaryFolder folder;
+    scenes::write_8bit(folder / "in.png", 3, 3, 4, std::vector<uint8_t>(36, 100), {});
+    const std::string cube =
+        test::write_dds(folder, "cube.dds", {.width = 8, .height = 8, .layers = 6, .cube = true}, FileFormat::Rgba8Unorm);
+    const test::Outcome outcome = run({"texture", "mips", cube, "-o", folder / "all.dds"});
+    ASSERT_EQ(outcome.code, kDone) << outcome.err;
+    EXPECT_EQ(outcome.out, "Saved: " + (folder / "all.dds") + "\n");
+    const Json told = info(folder / "all.dds");
+    EXPECT_EQ(told["levels"], 4);
+    EXPECT_EQ(told["faces"], 6);
+    expect_codes(decoded(folder / "all.dds", folder / "o.png", {"--face", "4"}), 0, 4);
+    const std::vector<float> made = decoded(cube, folder / "o.exr", {"--face", "4", "--level", "2"}).values;
+    EXPECT_EQ(decoded(folder / "all.dds", folder / "o.exr", {"--face", "4", "--level", "2"}).values, made);
+    ASSERT_EQ(run({"texture", "mips", folder / "in.png", "-o", folder / "srgb.dds", "--color-space", "srgb"}).code, kDone);
+    EXPECT_EQ(info(folder / "srgb.dds")["format"], "rgba8-srgb");
+}
+
 TEST(TextureCommand, WrongUsageIsExitCode2) {
     const TemporaryFolder folder;
     const std::string flat = test::write_dds(folder, "t.dds", {.width = 4, .height = 4}, FileFormat::Rgba8Unorm);
@@ -240,6 +258,8 @@ TEST(TextureCommand, WrongUsageIsExitCode2) {
         {{"texture", "decode", floats, "-o", out}, "cannot hold the texels, which are rgba32-float; a format that can is '.exr'"},
         {{"texture", "mips", snorm, "-o", out}, "cannot hold the texels, which are rgba8-snorm; a format that can is '.exr'"},
         {{"texture", "decode", flat, "-o", flat}, "-o"},
+        {{"texture", "mips", flat, "-o", flat}, "would replace a file that is read"},
+        {{"texture", "mips", flat, "-o", folder / "o.dds", "--layer", "0"}, "-o: a .dds file holds every layer, face and slice"},
     };
     for (const auto& [words, part] : cases) EXPECT_EQ(why_not_failed(run(words), kWrongUsage, part), "");
     // An input is never replaced.
