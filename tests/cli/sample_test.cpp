@@ -247,18 +247,19 @@ TEST(Sample, ReadsCodesInTheColorSpaceAskedFor) {
 TEST(Sample, TakesManyLookupsFromAFile) {
     const TemporaryFolder folder;
     const std::string texture = test::write_dds(folder, "t.dds", {.width = 16, .height = 16, .levels = 5}, FileFormat::Rgba8Unorm);
-    const std::string places = folder.write("places.txt", "0.1 0.2\n\n\t0.5 0.5 0.25 0 0 0.125 \r\n-1e-3 7");
-    const test::Outcome outcome = run({"sample", texture, "--uv", at_file(places)});
+    const std::string places = folder.write("places.txt", "0.1 0.2\n\n\t0.5 0.5 0.25 0.1 0 0.125 \r\n-1e-3 7");
+    const test::Outcome outcome = run({"sample", texture, "--uv", at_file(places), "--aniso", "4"});
     ASSERT_EQ(outcome.code, kDone) << outcome.err;
     std::istringstream lines(outcome.out);
     std::vector<std::string> found;
     for (std::string line; std::getline(lines, line);) found.push_back(line);
     ASSERT_EQ(found.size(), 3u) << outcome.out;
-    EXPECT_EQ(Json::parse(found[0]), sample(texture, {"--uv", "0.1,0.2"}));
-    EXPECT_EQ(Json::parse(found[1]), sample(texture, {"--uv", "0.5,0.5", "--ddx", "0.25,0", "--ddy", "0,0.125"}));
-    EXPECT_EQ(Json::parse(found[2]), sample(texture, {"--uv", "-1e-3,7"}));
+    EXPECT_EQ(Json::parse(found[0]), sample(texture, {"--uv", "0.1,0.2", "--aniso", "4"}));
+    EXPECT_EQ(Json::parse(found[1]), sample(texture, {"--uv", "0.5,0.5", "--ddx", "0.25,0.1", "--ddy", "0,0.125", "--aniso", "4"}));
+    EXPECT_EQ(Json::parse(found[2]), sample(texture, {"--uv", "-1e-3,7", "--aniso", "4"}));
     // Lines without derivatives take those of the options.
-    const test::Outcome wide = run({"sample", texture, "--uv", at_file(places), "--ddx", "0.5,0", "--ddy", "0,0.5", "--json"});
+    const test::Outcome wide =
+        run({"sample", texture, "--uv", at_file(places), "--ddx", "0.5,0", "--ddy", "0,0.5", "--aniso", "4", "--json"});
     std::istringstream wide_lines(wide.out);
     std::string first, second;
     std::getline(wide_lines, first);

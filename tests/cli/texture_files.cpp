@@ -19,7 +19,7 @@ uint32_t channels_of(FileFormat format) { return format == FileFormat::R8Unorm ?
 void append_texel(Bytes& bytes, FileFormat format, int level, int slice, int x, int y) {
     for (int c = 0; c < int(channels_of(format)); ++c) {
         const uint8_t code = code_of(level, slice, x, y, c);
-        const uint16_t wide = uint16_t(257 * code + 3);  // not a repeated byte
+        const uint16_t wide = wide_code_of(level, slice, x, y, c);
         const float number = float(code) / 255.0f;
         if (format == FileFormat::Rgba32Float)
             append(bytes, &number, sizeof number);
@@ -64,6 +64,8 @@ uint8_t code_of(int level, int slice, int x, int y, int c) {
     hash = (hash ^ hash >> 12) * 0x297A2D39u;
     return uint8_t(hash >> 24);
 }
+
+uint16_t wide_code_of(int level, int slice, int x, int y, int c) { return uint16_t(251 * code_of(level, slice, x, y, c) + 90); }
 
 std::string write_dds(const TemporaryFolder& folder, const std::string& name, const texunit::Shape& shape, FileFormat format) {
     Bytes bytes = header(shape, format);

@@ -30,5 +30,7 @@ std::string write_dds(const TemporaryFolder& folder, const std::string& name, co
 
 /// Channel `c` of a texel of such a file with four channels of 8 bits.
 uint8_t code_of(int level, int slice, int x, int y, int c);
+/// With 16 bits; as 8 bits they lie anywhere between two codes.
+uint16_t wide_code_of(int level, int slice, int x, int y, int c);
 
 }  // namespace rawtexel::test
