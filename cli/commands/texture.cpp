@@ -61,15 +61,17 @@ class TextureCommand : public Command {
     std::string_view usage() const override { return "texture info|decode|mips FILE [-o IMAGE] [options]"; }
     std::string_view summary() const override {
         return "Tells what is inside a texture file (info), or writes its texels as images: of one level (decode), or of every level of "
-               "its "
-               "pyramid (mips), those that the file lacks included. Formats of floats get linear values, formats of 8 bits the texture's "
-               "own codes. mips writes all of a texture into one file where that is a .dds.";
+               "its pyramid (mips), those that the file lacks included. Formats of floats get linear values, formats of 8 bits the "
+               "texture's own codes.";
     }
 
     void declare(CommandLine& line) override {
         line.arguments("info|decode|mips FILE", "what to do, and a .dds or .ktx2 file, or any image", 2, 2, words_);
         line.flag("--json", "info: as JSON", json_);
-        line.option("-o,--output", "IMAGE", "decode, mips: the image to write; mips writes NAME.levelN.EXT for NAME.EXT, N = 0, 1, ...",
+        line.option("-o,--output", "IMAGE",
+                    "decode, mips: the image to write; for NAME.EXT mips writes one image a level, NAME.level0.EXT and so on, but all "
+                    "layers, faces "
+                    "and levels into a NAME.dds",
                     [this](const std::string& text) { output_ = text; });
         line.group("Which texels (each 0 by default)");
         declare_index(line, "--level", "L", "decode: the level, finest first", choice_.level);

@@ -3,6 +3,7 @@
 
 #include "texunit/containers.h"
 
+#include "tests/texunit/container_writer.h"
 #include "tests/texunit/hashed_source.h"
 
 #include <gtest/gtest.h>
@@ -76,6 +77,24 @@ TEST(DdsWriter, EveryShapeReadsBack) {
         const auto texture = hashed(Format::RGBA8Srgb, shape);
         expect_same(*texture, *reopened(*texture), 0, "shape");
         if (HasFatalFailure()) return;
+    }
+}
+
+/// Held against files that another writer made.
+TEST(DdsWriter, PutsTexelsWhereTheFileHadThem) {
+    constexpr size_t kHeader = 148;
+    for (const Shape& shape :
+         {Shape{.width = 7, .height = 19, .layers = 3, .levels = 5}, Shape{.width = 9, .height = 4, .depth = 6, .levels = 4},
+          Shape{.width = 8, .height = 8, .layers = 12, .levels = 4, .cube = true}}) {
+        for (const auto& [dxgi, unit_bytes] : {std::pair{28u, 4}, {29u, 4}, {49u, 2}, {61u, 1}, {11u, 8}, {56u, 2}}) {
+            const test_files::Bytes file = test_files::write_dds(test_files::random_image(shape, 1, unit_bytes, dxgi), dxgi);
+            Texture texture("file", open_dds(open_memory("file", file)));
+            const std::vector<std::byte> written = encode_dds(texture);
+            ASSERT_EQ(written.size(), file.size()) << dxgi;
+            EXPECT_TRUE(std::equal(file.begin() + kHeader, file.end(), written.begin() + kHeader)) << "texels of DXGI_FORMAT " << dxgi;
+            constexpr size_t kExtension = 128;
+            EXPECT_TRUE(std::equal(file.begin() + kExtension, file.begin() + kHeader, written.begin() + kExtension)) << dxgi;
+        }
     }
 }
 
