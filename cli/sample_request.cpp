@@ -21,6 +21,7 @@ void declare_coordinates(CommandLine& line, SampleRequest& request, CoordinateKi
     line.option(option, std::string(form_of(kind)) + "|@FILE", help, [&request, kind, option](const std::string& text) {
         if (request.coordinates)
             throw UsageError(std::string(option_of(request.coordinates->kind)) + " and " + option + " exclude each other");
+        if (text == "@") throw UsageError(option + ": '@' names no file");
         SampleRequest::Coordinates& coordinates = request.coordinates.emplace();
         coordinates.kind = kind;
         if (text.starts_with('@'))

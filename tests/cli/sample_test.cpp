@@ -292,6 +292,7 @@ TEST(Sample, WrongUsageIsExitCode2) {
     const std::initializer_list<std::tuple<std::string, std::vector<std::string>, const char*>> cases{
         {flat, {}, "--uv U,V is missing"},
         {flat, {"--uv", "0.5"}, "--uv: '0.5' is not U,V"},
+        {flat, {"--uv", "@"}, "--uv: '@' names no file"},
         {flat, {"--uv", "0.5,0.5,0.5"}, "is not U,V"},
         {flat, {"--uv", "0.5,nan"}, "is not U,V"},
         {flat, {"--uv", "0.5,0.5", "--uvw", "0,0,0"}, "--uv and --uvw exclude each other"},
