@@ -27,8 +27,12 @@ std::string print_anisotropy(const shading::FootprintOptions& footprint) {
 
 float parse_ellipse(std::string_view text) { return text.empty() ? kTentVariance : parse_number("--ewa", text, kVariance); }
 
-void declare_footprint_options(CommandLine& line, shading::FootprintOptions& footprint) {
-    line.group("Footprints");
+std::string print_ellipse(float ellipse) { return ellipse > 0 ? print_number(ellipse) : "none"; }
+
+std::string_view to_string(shading::Derivatives derivatives) { return derivatives == shading::Derivatives::Quad ? "quad" : "analytic"; }
+std::string_view to_string(shading::FootprintArea area) { return area == shading::FootprintArea::Sample ? "sample" : "pixel"; }
+
+void declare_lod_options(CommandLine& line, shading::FootprintOptions& footprint) {
     line.option("--aniso", "N[:S2]",
                 "anisotropic probes, 1 to 64 at most; with S2 probes and level together have the covariance of a pixel filter of that "
                 "variance, " +
@@ -42,6 +46,10 @@ void declare_footprint_options(CommandLine& line, shading::FootprintOptions& foo
                 });
     line.option("--lod-bias", "B", "added to every level of detail, " + print(kBias) + " (default 0)",
                 [&](const std::string& text) { footprint.lod_bias = parse_number("--lod-bias", text, kBias); });
+}
+
+void declare_footprint_options(CommandLine& line, shading::FootprintOptions& footprint) {
+    declare_lod_options(line, footprint);
     line.option("--derivatives", "analytic|quad", "per pixel (the default), or by differences within 2x2 pixels as GPUs do",
                 [&](const std::string& text) {
                     const bool quad = parse_word("--derivatives", text, {"analytic", "quad"}) == 1;

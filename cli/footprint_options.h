@@ -9,6 +9,9 @@
 
 namespace rawtexel::cli {
 
+/// --aniso, --ewa, --lod-rule and --lod-bias: what becomes of derivatives.
+void declare_lod_options(CommandLine& line, shading::FootprintOptions& footprint);
+/// The same, with --derivatives and --footprint: where a frame's derivatives come from.
 void declare_footprint_options(CommandLine& line, shading::FootprintOptions& footprint);
 
 /// N or N:S2, 1 <= N <= 64, 0 < S2 <= 4.
@@ -16,5 +19,9 @@ void parse_anisotropy(std::string_view text, shading::FootprintOptions& footprin
 std::string print_anisotropy(const shading::FootprintOptions& footprint);
 /// S2, or 1/6 for no text.
 float parse_ellipse(std::string_view text);
+/// "none", or S2.
+std::string print_ellipse(float ellipse);
+std::string_view to_string(shading::Derivatives derivatives);  // analytic quad
+std::string_view to_string(shading::FootprintArea area);       // pixel sample
 
 }  // namespace rawtexel::cli

@@ -19,10 +19,8 @@ scenes::Metadata image_metadata(const RunRecord& record, bool has_display_transf
         {"rawtexel:spp", std::to_string(request.samples.spp)},
         {"rawtexel:pixel-filter", std::string(to_string(request.samples.pixel_filter))},
         {"rawtexel:pixel-jitter", std::string(to_string(request.samples.pixel_jitter))},
-        {"rawtexel:filter", print_filter(request.lookup.filter)},
-        {"rawtexel:mip", print_mip(request.lookup.mip)},
-        {"rawtexel:mip-storage", print(request.lookup.mip_storage)},
     };
+    for (const auto& [name, choice] : print_choices(request.lookup)) metadata.emplace_back("rawtexel:" + name, choice);
     if (request.crop.width > 0) metadata.emplace_back("rawtexel:crop", print(request.crop));
     if (has_display_transform) {
         const shading::DisplayOptions display = display_options(request.tone);

@@ -5,6 +5,8 @@
 #include "cli/commands/export.h"
 #include "cli/commands/list.h"
 #include "cli/commands/render.h"
+#include "cli/commands/sample.h"
+#include "cli/commands/texture.h"
 #include "cli/run_record.h"
 #include "cli/version.h"
 #include "cli/word_list.h"
@@ -24,9 +26,12 @@ namespace rawtexel::cli {
 namespace {
 
 using Words = std::vector<std::string>;
-using Commands = std::array<std::unique_ptr<Command>, 4>;
+using Commands = std::array<std::unique_ptr<Command>, 6>;
 
-Commands all_commands() { return {make_render_command(), make_compare_command(), make_list_command(), make_export_command()}; }
+Commands all_commands() {
+    return {make_render_command(),  make_compare_command(), make_sample_command(),
+            make_texture_command(), make_list_command(),    make_export_command()};
+}
 
 std::vector<std::string> names_of(const Commands& commands) {
     std::vector<std::string> names;

@@ -3,7 +3,6 @@
 #include "cli/footprint_options.h"
 #include "cli/limits.h"
 #include "cli/option_values.h"
-#include "cli/texture_options.h"
 #include "cli/word_list.h"
 
 #include <algorithm>
@@ -16,28 +15,9 @@ namespace rawtexel::cli {
 namespace {
 
 using shading::Aov;
-using texunit::Kernel;
-using texunit::MipMode;
 
 constexpr NumberRange kFov{kMinFov, kMaxFov}, kAngle{-kMaxAngle, kMaxAngle}, kZoom{kMinZoom, kMaxZoom}, kAmbient{0.0f, kMaxAmbient},
     kRadiance{0.0f, kMaxRadiance}, kLux{0.0f, kMaxLux}, kExposure{-kMaxExposure, kMaxExposure}, kLength{-kMaxLength, kMaxLength};
-
-template <class T>
-std::string print_or_scene(const std::optional<T>& value) {
-    return value ? std::string(to_string(*value)) : "scene";
-}
-
-// "scene" is no member of the enumerations below: it stands for the absence of a choice.
-template <class T>
-std::optional<T> parse_or_scene(std::string_view option, std::string_view text, std::initializer_list<T> all) {
-    std::vector<std::string> names{"scene"};
-    if (text == names[0]) return std::nullopt;
-    for (const T value : all) {
-        if (to_string(value) == text) return value;
-        names.emplace_back(to_string(value));
-    }
-    throw unknown_value(option, text, names);
-}
 
 // A number of a value that holds several, in its own range.
 float part_in(const NumberRange& range, const char* option, std::string_view text, const char* part, float value) {
@@ -97,18 +77,6 @@ void declare_light_options(CommandLine& line, LightOptions& light) {
               "light as simple viewers draw it: the scene's directional light or --light -0.4,-1,-0.3,3, and --ambient 0.1 "
               "--shadows off --environment none --tonemap none; options beside it win",
               light.peer_shading);
-}
-
-void declare_lookup_options(CommandLine& line, LookupOptions& lookup) {
-    line.group("Texture unit");
-    line.option("--filter", "NAME", "scene (what the file's samplers say; the default), nearest or bilinear",
-                [&](const std::string& text) { lookup.filter = parse_filter(text); });
-    line.option("--mip", "MODE", "scene (the default), linear, nearest or none: between which levels a minified lookup reads",
-                [&](const std::string& text) { lookup.mip = parse_mip(text); });
-    line.option("--mip-storage", "source|float", "generated levels rounded to the image's own format (the default), or kept in float",
-                [&](const std::string& text) { lookup.mip_storage = parse_mip_storage(text); });
-    declare_texture_options(line, lookup.files);
-    declare_footprint_options(line, lookup.footprint);
 }
 
 void declare_sample_options(CommandLine& line, SampleOptions& samples) {
@@ -252,22 +220,6 @@ std::optional<glm::vec3> parse_background(std::string_view text) {
     return parse_vector("--background", text, "environment or R,G,B", kRadiance);
 }
 
-std::optional<Kernel> parse_filter(std::string_view text) { return parse_or_scene("--filter", text, {Kernel::Nearest, Kernel::Bilinear}); }
-
-std::string print_filter(const std::optional<Kernel>& filter) { return print_or_scene(filter); }
-
-std::optional<MipMode> parse_mip(std::string_view text) {
-    return parse_or_scene("--mip", text, {MipMode::Linear, MipMode::Nearest, MipMode::None});
-}
-
-std::string print_mip(const std::optional<MipMode>& mip) { return print_or_scene(mip); }
-
-texunit::MipStorage parse_mip_storage(std::string_view text) {
-    return parse_word("--mip-storage", text, {"source", "float"}) == 0 ? texunit::MipStorage::Source : texunit::MipStorage::Float;
-}
-
-std::string print(texunit::MipStorage storage) { return storage == texunit::MipStorage::Source ? "source" : "float"; }
-
 std::vector<Aov> parse_aovs(std::string_view text) {
     std::vector<Aov> aovs;
     for (const std::string& word : split(text, ',')) {
@@ -283,7 +235,10 @@ void declare_render_options(CommandLine& line, RenderRequest& request) {
     declare_image_options(line, request);
     declare_view_options(line, request.view);
     declare_light_options(line, request.light);
+    line.group("Texture unit");
     declare_lookup_options(line, request.lookup);
+    line.group("Footprints");
+    declare_footprint_options(line, request.lookup.footprint);
     declare_sample_options(line, request.samples);
     declare_tone_options(line, request.tone);
     declare_machine_options(line, request.machine);

@@ -3,13 +3,11 @@
 #pragma once
 
 #include "cli/command_line.h"
+#include "cli/lookup_options.h"
 #include "cli/progress.h"
 #include "shading/display.h"
-#include "shading/footprint_options.h"
 #include "shading/render.h"
-#include "texunit/containers.h"
 #include "texunit/simd.h"
-#include "texunit/texture.h"
 
 #include <glm/glm.hpp>
 
@@ -65,14 +63,6 @@ struct LightOptions {
     bool peer_shading = false;
 };
 
-struct LookupOptions {
-    std::optional<texunit::Kernel> filter;  ///< unset: what the scene's samplers say
-    std::optional<texunit::MipMode> mip;
-    shading::FootprintOptions footprint;
-    texunit::MipStorage mip_storage = texunit::MipStorage::Source;
-    texunit::ContainerOptions files;
-};
-
 struct SampleOptions {
     int spp = 1;
     shading::PixelFilter pixel_filter = shading::PixelFilter::Box;
@@ -119,14 +109,8 @@ SunOption parse_light(std::string_view text);  // X,Y,Z[,I]
 std::string print(const SunOption& light);
 EnvironmentOption parse_environment(std::string_view text);  // sky none FILE
 std::string print(const EnvironmentOption& environment);
-std::optional<glm::vec3> parse_background(std::string_view text);    // environment R,G,B
-std::optional<texunit::Kernel> parse_filter(std::string_view text);  // scene nearest bilinear
-std::string print_filter(const std::optional<texunit::Kernel>& filter);
-std::optional<texunit::MipMode> parse_mip(std::string_view text);  // scene linear nearest none
-std::string print_mip(const std::optional<texunit::MipMode>& mip);
-texunit::MipStorage parse_mip_storage(std::string_view text);  // source float
-std::string print(texunit::MipStorage storage);
-std::vector<shading::Aov> parse_aovs(std::string_view text);  // depth,normal,…
+std::optional<glm::vec3> parse_background(std::string_view text);  // environment R,G,B
+std::vector<shading::Aov> parse_aovs(std::string_view text);       // depth,normal,…
 
 /// Declares all options that set a RenderRequest.
 void declare_render_options(CommandLine& line, RenderRequest& request);

@@ -47,9 +47,7 @@ MaterialState make_material_state(const Scene& scene, uint32_t index, const Look
         lookup.texture = scene.textures[size_t(map.texture)].texture.get();
         lookup.texture_index = uint32_t(map.texture);
         lookup.sampler = map.sampler;
-        if (overrides.filter) lookup.sampler.magnify = lookup.sampler.minify = *overrides.filter;
-        if (overrides.mip) lookup.sampler.mip = *overrides.mip;
-        override_footprint(overrides.footprint, lookup.sampler);
+        override_sampler(overrides, lookup.sampler);
         lookup.coordinates = coordinates_of(state, map);
     }
     return state;
@@ -77,6 +75,13 @@ raster::CoverageClass coverage_class(AlphaMode mode) {
 }
 
 }  // namespace
+
+void override_sampler(const LookupOverrides& overrides, texunit::SamplerState& sampler) {
+    if (overrides.filter) sampler.magnify = sampler.minify = *overrides.filter;
+    if (overrides.mip) sampler.mip = *overrides.mip;
+    override_footprint(overrides.footprint, sampler);
+    sampler.precision = overrides.precision;
+}
 
 DrawStates make_draw_states(const Scene& scene, const LookupOverrides& overrides) {
     DrawStates states;

@@ -53,8 +53,12 @@ struct LookupOverrides {
     std::optional<texunit::Kernel> filter;
     std::optional<texunit::MipMode> mip;
     FootprintOptions footprint;
+    texunit::Precision precision = texunit::Precision::Exact;
     bool occlusion = true;  ///< false: nothing reads occlusion maps
 };
+
+/// Makes `sampler` look up as the overrides say.
+void override_sampler(const LookupOverrides& overrides, texunit::SamplerState& sampler);
 
 /// One draw per instance, in scene order.
 struct DrawStates {

@@ -119,8 +119,11 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
     // The same image whatever the tiles: the order of fetches is that of its own.
     const int tile_size = fetches.needs_order() ? kCanonicalTile : options.tile_size;
     const bool indirect_light = lighting.environment != nullptr || lighting.ambient != 0.0f;
-    const DrawStates states = make_draw_states(
-        scene, {.filter = options.filter, .mip = options.mip, .footprint = options.footprint, .occlusion = indirect_light});
+    const DrawStates states = make_draw_states(scene, {.filter = options.filter,
+                                                       .mip = options.mip,
+                                                       .footprint = options.footprint,
+                                                       .precision = options.precision,
+                                                       .occlusion = indirect_light});
     const raster::Frame frame = make_frame(states, options, visible, tile_size, executor);
 
     RenderResult result;

@@ -40,6 +40,7 @@ struct RenderOptions {
     std::optional<texunit::Kernel> filter;
     std::optional<texunit::MipMode> mip;
     FootprintOptions footprint;
+    texunit::Precision precision = texunit::Precision::Exact;  ///< of every lookup
     std::optional<glm::vec3> background;  ///< nullopt: the environment, black where there is none
     std::vector<Aov> aovs;
     bool coverage = false;  ///< fill RenderResult::coverage

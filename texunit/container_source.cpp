@@ -32,6 +32,7 @@ class ContainerSource final : public TexelSource {
     Format format() const override { return texel_.format; }
     Shape shape() const override { return shape_; }
     uint64_t stored_bytes() const override { return image_bytes(texel_, shape_); }
+    uint64_t level_bytes(int level) const override { return texunit::level_bytes(texel_, shape_, level); }
     BcRounding bc_rounding() const override { return texel_.rounding; }
 
     void decode_block(int level, int slice, int block_x, int block_y, std::byte* texels) override {
@@ -90,6 +91,7 @@ class ReinterpretedSource final : public TexelSource {
     Format format() const override { return format_; }
     Shape shape() const override { return source_->shape(); }
     uint64_t stored_bytes() const override { return source_->stored_bytes(); }
+    uint64_t level_bytes(int level) const override { return source_->level_bytes(level); }
     BcRounding bc_rounding() const override { return source_->bc_rounding(); }
     void decode_block(int level, int slice, int block_x, int block_y, std::byte* texels) override {
         source_->decode_block(level, slice, block_x, block_y, texels);
@@ -106,8 +108,6 @@ uint64_t slice_bytes(const FileTexel& texel, int width, int height) {
     const auto units = [&](int extent) { return uint64_t(extent + texel.extent - 1) / uint64_t(texel.extent); };
     return units(width) * units(height) * uint64_t(texel.file_bytes);
 }
-
-int slice_count(const Shape& shape, int level) { return shape.depth > 1 ? level_extent(shape.depth, level) : shape.layers; }
 
 uint64_t level_bytes(const FileTexel& texel, const Shape& shape, int level) {
     const uint64_t slice = slice_bytes(texel, level_extent(shape.width, level), level_extent(shape.height, level));

@@ -21,9 +21,6 @@ struct LevelPlace {
 /// Bytes of one slice of `width` x `height` texels in the file. At most 2^32 within kMaxExtent.
 uint64_t slice_bytes(const FileTexel& texel, int width, int height);
 
-/// The slices that level `level` has: array layers, or the depth of that level.
-int slice_count(const Shape& shape, int level);
-
 /// Bytes of all slices of one level, and of all levels.
 uint64_t level_bytes(const FileTexel& texel, const Shape& shape, int level);
 uint64_t image_bytes(const FileTexel& texel, const Shape& shape);

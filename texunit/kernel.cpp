@@ -3,24 +3,31 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <utility>
 
 namespace rawtexel::texunit {
 namespace {
 
-constexpr std::array<std::pair<KernelKind, std::string_view>, 10> kNames = {{{KernelKind::Nearest, "nearest"},
-                                                                             {KernelKind::Bilinear, "bilinear"},
-                                                                             {KernelKind::Quadratic, "quadratic"},
-                                                                             {KernelKind::BSpline, "bspline"},
-                                                                             {KernelKind::Mitchell, "mitchell"},
-                                                                             {KernelKind::CatmullRom, "catmull-rom"},
-                                                                             {KernelKind::Lanczos2, "lanczos2"},
-                                                                             {KernelKind::Lanczos3, "lanczos3"},
-                                                                             {KernelKind::Gaussian, "gaussian"},
-                                                                             {KernelKind::GaussianPoint, "gaussian-point"}}};
+constexpr std::array kKernels = {
+    KernelInfo{KernelKind::Nearest, "nearest", "", "the one texel that the coordinate lies in"},
+    KernelInfo{KernelKind::Bilinear, "bilinear", "", "2 texels an axis, weighed by a tent that reaches one texel to either side"},
+    KernelInfo{KernelKind::Quadratic, "quadratic", "", "3 texels an axis: the uniform quadratic B-spline"},
+    KernelInfo{KernelKind::BSpline, "bspline", "", "4 texels an axis: the uniform cubic B-spline, the smoothest of them"},
+    KernelInfo{KernelKind::Mitchell, "mitchell", "B,C", "4 texels an axis: the cubic of Mitchell and Netravali, B = C = 1/3 by default"},
+    KernelInfo{KernelKind::CatmullRom, "catmull-rom", "", "4 texels an axis: the cubic that goes through the texels, mitchell:0,0.5"},
+    KernelInfo{KernelKind::Lanczos2, "lanczos2", "", "4 texels an axis: a sinc windowed by a wider one, normalised along each axis"},
+    KernelInfo{KernelKind::Lanczos3, "lanczos3", "", "6 texels an axis: the same with one lobe more"},
+    KernelInfo{KernelKind::Gaussian, "gaussian", "SIGMA",
+               "the normal distribution cut at 4 sigma and integrated over each texel, SIGMA = 0.5 texels by default"},
+    KernelInfo{KernelKind::GaussianPoint, "gaussian-point", "SIGMA",
+               "the normal density at the centres of the texels within 4 sigma, normalised along each axis, SIGMA = 0.5 by default"}};
 
-/// Largest |B| and |C|: beyond, the weights of a filter that should average are in the hundreds.
-constexpr float kMostMitchell = 10.0f;
+constexpr bool kernels_are_in_order() {
+    for (size_t i = 0; i < kKernels.size(); ++i) {
+        if (size_t(kKernels[i].kind) != i) return false;
+    }
+    return kKernels.size() == size_t(KernelKind::GaussianPoint) + 1;
+}
+static_assert(kernels_are_in_order());
 
 bool is_gaussian(KernelKind kind) { return kind == KernelKind::Gaussian || kind == KernelKind::GaussianPoint; }
 
@@ -79,11 +86,10 @@ int axis_taps(const Kernel& kernel) {
     return 1;
 }
 
+std::span<const KernelInfo> all_kernels() { return kKernels; }
+
 std::string to_string(const Kernel& kernel) {
-    std::string text;
-    for (const auto& [kind, name] : kNames) {
-        if (kind == kernel.kind) text = name;
-    }
+    std::string text(kKernels[size_t(kernel.kind)].name);
     if (kernel == with_default_parameters(kernel.kind)) return text;
     text += ':' + print(kernel.b);
     if (kernel.kind == KernelKind::Mitchell) text += ',' + print(kernel.c);
@@ -92,9 +98,9 @@ std::string to_string(const Kernel& kernel) {
 
 std::optional<Kernel> parse_kernel(std::string_view text) {
     const size_t colon = text.find(':');
-    for (const auto& [kind, name] : kNames) {
-        if (name != text.substr(0, colon)) continue;
-        const Kernel kernel = with_default_parameters(kind);
+    for (const KernelInfo& known : kKernels) {
+        if (known.name != text.substr(0, colon)) continue;
+        const Kernel kernel = with_default_parameters(known.kind);
         if (colon == std::string_view::npos) return kernel;
         return parse_parameters(kernel, text.substr(colon + 1));
     }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -43,10 +44,20 @@ inline constexpr Kernel Kernel::Lanczos2{KernelKind::Lanczos2};
 inline constexpr Kernel Kernel::Lanczos3{KernelKind::Lanczos3};
 
 inline constexpr float kLeastSigma = 0.02f, kMostSigma = 16.0f;  ///< texels
-inline constexpr int kMostAxisTaps = 130;                        ///< of the widest kernel: 8 sigma + 2
+/// Largest |B| and |C|: beyond, the weights of a filter that should average are in the hundreds.
+inline constexpr float kMostMitchell = 10.0f;
+inline constexpr int kMostAxisTaps = 130;  ///< of the widest kernel: 8 sigma + 2
 
 /// Most taps along one axis: 1, 2, 3, 4, 4, 4, 4, 6; for Gaussians by sigma.
 int axis_taps(const Kernel& kernel);
+
+struct KernelInfo {
+    KernelKind kind;
+    std::string_view name;         ///< without parameters
+    std::string_view parameters;   ///< what may follow a colon, such as "B,C"; empty for none
+    std::string_view description;  ///< one line for people
+};
+std::span<const KernelInfo> all_kernels();
 
 /// nearest bilinear quadratic bspline mitchell[:B,C] catmull-rom lanczos2 lanczos3 gaussian[:SIGMA] gaussian-point[:SIGMA].
 std::string to_string(const Kernel& kernel);

@@ -1,9 +1,10 @@
 #include "cli/commands/list.h"
 
+#include "cli/counters.h"
 #include "cli/option_values.h"
-#include "cli/stats.h"
 #include "scenes/builtin.h"
 #include "texunit/format.h"
+#include "texunit/kernel.h"
 
 #include <nlohmann/json.hpp>
 
@@ -25,9 +26,13 @@ Entries entries_of(const Range& range) {
 }
 
 Entries filter_entries() {
-    return {{"scene", "what the file's sampler says, bilinear where it is silent"},
-            {"nearest", "the one texel that the coordinate lies in"},
-            {"bilinear", "the four nearest texels, weighted by a tent one texel wide"}};
+    Entries entries{{"scene", "what the file's sampler says, bilinear where it is silent"}};
+    for (const texunit::KernelInfo& kernel : texunit::all_kernels()) {
+        entries.push_back({std::string(kernel.name), std::string(kernel.description)});
+        if (!kernel.parameters.empty())
+            entries.back().description += " (spelled " + std::string(kernel.name) + ":" + std::string(kernel.parameters) + ")";
+    }
+    return entries;
 }
 
 Entries entries_for(const std::string& subject) {

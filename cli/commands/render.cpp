@@ -44,6 +44,7 @@ shading::RenderOptions frame_options(const RenderRequest& request, const shading
     options.filter = request.lookup.filter;
     options.mip = request.lookup.mip;
     options.footprint = request.lookup.footprint;
+    options.precision = request.lookup.precision;
     options.background = request.tone.white_backdrop ? glm::vec3(0.0f) : request.light.background;
     options.coverage = request.tone.white_backdrop;
     options.aovs = std::move(aovs);

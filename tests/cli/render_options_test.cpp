@@ -96,7 +96,6 @@ TEST(RenderOptions, OptionalPartsHaveDefaults) {
 
 TEST(RenderOptions, WrongValuesAreRefusedWithTheNearest) {
     const std::initializer_list<std::pair<std::vector<std::string>, const char*>> cases{
-        {{"--filter", "bilinaer"}, "--filter: unknown value 'bilinaer', the nearest is 'bilinear' (scene nearest bilinear)"},
         {{"--mip", "liner"}, "--mip: unknown value 'liner', the nearest is 'linear' (scene linear nearest none)"},
         {{"--tonemap", "ACES"}, "--tonemap: unknown value 'ACES', the nearest is 'aces' (aces reinhard none)"},
         {{"--shadows", "of"}, "--shadows: unknown value 'of', the nearest is 'off' (on off)"},
@@ -152,8 +151,6 @@ TEST(RenderOptions, HelpSaysTheRangeOfEveryNumber) {
 TEST(RenderOptions, WhatLaterVersionsMayKnowIsUnknownNow) {
     for (const std::string option : {"--estimator", "--noise", "--adaptive", "--frames", "--cache", "--skip"})
         EXPECT_TRUE(error_of({option, "1"}).starts_with("unknown option '" + option + "', the nearest is '--")) << error_of({option, "1"});
-    for (const std::string filter : {"mitchell", "gaussian:0.5", "lanczos3"})
-        EXPECT_TRUE(error_of({"--filter", filter}).starts_with("--filter: unknown value '" + filter + "'"));
 }
 
 TEST(RenderOptions, PeerShadingPresetsWhatNoOptionSays) {

@@ -1,3 +1,4 @@
+#include "cli/counters.h"
 #include "cli/metadata.h"
 #include "cli/stats.h"
 #include "cli/version.h"
@@ -64,8 +65,8 @@ TEST(Stats, HasTheKeysOfTheContract) {
     const Sample sample(true);
     const Json json = Json::parse(stats_json(sample.record, sample.scene));
     using Keys = std::set<std::string>;
-    EXPECT_EQ(keys_of(json),
-              (Keys{"rawtexel", "scene", "command", "image", "frame_s", "time_s", "memory_bytes", "geometry", "texture", "textures"}));
+    EXPECT_EQ(keys_of(json), (Keys{"rawtexel", "scene", "command", "lookup", "image", "frame_s", "time_s", "memory_bytes", "geometry",
+                                   "texture", "textures"}));
     EXPECT_EQ(keys_of(json["image"]), (Keys{"width", "height", "spp", "samples_shaded"}));
     EXPECT_EQ(keys_of(json["frame_s"]), (Keys{"min", "median", "n"}));
     EXPECT_EQ(keys_of(json["time_s"]), (Keys{"load", "geometry", "raster", "shade", "write", "total"}));
@@ -101,6 +102,10 @@ TEST(Stats, HoldsTheNumbersOfTheRun) {
     EXPECT_EQ(json["scene"], "plane");
     EXPECT_EQ(json["command"], sample.record.command);
     EXPECT_EQ(json["image"], Json::parse(R"({"width": 20, "height": 10, "spp": 4, "samples_shaded": 100})"));
+    EXPECT_EQ(json["lookup"]["filter"], "nearest");
+    EXPECT_EQ(json["lookup"]["mip"], "scene");
+    EXPECT_EQ(json["lookup"]["lod_rule"], "d3d");
+    EXPECT_EQ(json["lookup"]["precision"], "exact");
     EXPECT_EQ(json["frame_s"]["min"], 0.1);
     EXPECT_EQ(json["frame_s"]["median"], 0.25);
     EXPECT_EQ(json["frame_s"]["n"], 4);
@@ -152,6 +157,33 @@ TEST(Stats, EveryKeyIsAListedCounter) {
             EXPECT_TRUE(value.is_object() || listed.contains(std::string(group) + "." + key)) << group << "." << key;
 }
 
+TEST(Counters, ListEveryKeyOfTheTextureObject) {
+    std::set<std::string> listed;
+    for (const CounterInfo& counter : all_counters()) listed.emplace(counter.name);
+    for (const char* key : {"lookups",
+                            "taps",
+                            "texels_requested",
+                            "texels_unique",
+                            "texels_per_sample",
+                            "blocks_touched",
+                            "lines_64",
+                            "bytes_decoded",
+                            "lines_stored_64",
+                            "bytes_stored",
+                            "overfetch",
+                            "cache.l1_hits",
+                            "cache.l1_misses",
+                            "cache.l2_hits",
+                            "cache.l2_misses",
+                            "cache.compulsory",
+                            "cache.capacity",
+                            "cache.conflict",
+                            "performed.blocks_decoded",
+                            "performed.blocks_decoded_mips",
+                            "performed.lookups_skipped"})
+        EXPECT_TRUE(listed.contains(std::string("texture.") + key)) << key;
+}
+
 TEST(Metadata, HoldsWhatMadeTheImage) {
     const Sample sample(true);
     const scenes::Metadata metadata = image_metadata(sample.record, true);
@@ -165,6 +197,8 @@ TEST(Metadata, HoldsWhatMadeTheImage) {
     EXPECT_EQ(value("rawtexel:spp"), "4");
     EXPECT_EQ(value("rawtexel:camera"), sample.record.view);
     EXPECT_EQ(value("rawtexel:filter"), "nearest");
+    EXPECT_EQ(value("rawtexel:precision"), "exact");
+    EXPECT_EQ(value("rawtexel:lod-rule"), "d3d");
     EXPECT_EQ(value("rawtexel:lookups"), "31");
     EXPECT_EQ(value("rawtexel:taps"), "102");
     EXPECT_EQ(value("rawtexel:texels_requested"), "103");

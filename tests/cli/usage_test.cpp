@@ -1,10 +1,11 @@
 // What the program says of itself, and of words it does not know.
 #include "cli/command.h"
-#include "cli/stats.h"
+#include "cli/counters.h"
 #include "cli/version.h"
 #include "scenes/builtin.h"
 #include "tests/cli/program_runner.h"
 #include "texunit/format.h"
+#include "texunit/kernel.h"
 
 #include <gtest/gtest.h>
 
@@ -79,7 +80,7 @@ TEST(Usage, AFullStandardOutputIsExitCode4) {
 TEST(Usage, HelpIsComplete) {
     const test::Outcome whole = run({"--help"});
     EXPECT_EQ(whole.code, 0);
-    for (const char* part : {"render", "compare", "list", "export", "--version", "Exit codes"})
+    for (const char* part : {"render", "compare", "sample", "texture", "list", "export", "--version", "Exit codes"})
         EXPECT_NE(whole.out.find(part), std::string::npos) << part;
     const std::initializer_list<std::pair<const char*, std::vector<const char*>>> commands{
         {"render", {"--size",         "--crop",         "--camera",      "--orbit",     "--eye",         "--target",
@@ -90,6 +91,13 @@ TEST(Usage, HelpIsComplete) {
                     "--aov",          "--count",        "--stats",       "--repeat",    "--threads",     "--tile-size",
                     "--simd",         "--progress",     "--scenario",    "-o,--output", "SCENE",         "--help"}},
         {"compare", {"-o,--output", "--json", "--csv", "--max-rmse", "--min-psnr", "IMAGE", "REFERENCE"}},
+        {"sample", {"TEXTURE",   "--uv",      "--uvw",         "--direction", "--ddx",         "--ddy",         "--lod",
+                    "--layer",   "--filter",  "--mip",         "--precision", "--mip-storage", "--bc-rounding", "--max-texture-bytes",
+                    "--wrap",    "--border",  "--color-space", "--aniso",     "--ewa",         "--lod-rule",    "--lod-bias",
+                    "--min-lod", "--max-lod", "--json"}},
+        {"texture",
+         {"info|decode|mips FILE", "-o,--output", "--json", "--level", "--layer", "--face", "--slice", "--color-space", "--mip-storage",
+          "--bc-rounding", "--max-texture-bytes"}},
         {"list", {"scenes", "filters", "formats", "counters", "--json"}},
         {"export", {"SCENE", "-o,--output"}}};
     for (const auto& [command, parts] : commands)
@@ -101,7 +109,7 @@ TEST(Usage, HelpIsComplete) {
 }
 
 TEST(Usage, HelpIsACommandToo) {
-    for (const std::string command : {"render", "compare", "list", "export"})
+    for (const std::string command : {"render", "compare", "sample", "texture", "list", "export"})
         EXPECT_EQ(run({"help", command}).out, run({command, "--help"}).out) << command;
     for (const std::vector<std::string>& words : {std::vector<std::string>{"help"}, {"help", "help"}, {"help", "--help"}})
         EXPECT_EQ(run(words).out, run({"--help"}).out);
@@ -126,7 +134,7 @@ TEST(Usage, TheCommandMayComeLast) {
 
 TEST(List, NamesEverythingOneALine) {
     const std::initializer_list<std::pair<const char*, size_t>> subjects{{"scenes", scenes::builtin_scenes().size()},
-                                                                         {"filters", 3},
+                                                                         {"filters", texunit::all_kernels().size() + 1},
                                                                          {"formats", texunit::all_formats().size()},
                                                                          {"counters", all_counters().size()}};
     for (const auto& [subject, count] : subjects) {

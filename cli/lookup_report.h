@@ -1,0 +1,28 @@
+// One lookup, told: as JSON for scripts, as tables for people.
+#pragma once
+
+#include "cli/lookup_places.h"
+#include "texunit/lookup_trace.h"
+#include "texunit/texture.h"
+
+#include <string>
+
+namespace rawtexel::cli {
+
+/// What is told of.
+struct ReportedLookup {
+    const texunit::Texture& texture;
+    const texunit::SamplerState& sampler;
+    const LookupPlace& place;
+    const texunit::LookupTrace& trace;
+};
+
+/// One line: {"lod", "anisotropy", "precision", "taps": [{"level", "x", "y", "weight", "value"}], "result"}. Taps of arrays have "layer"
+/// too, those of cube maps "face" (and "layer" in an array of cubes), those of volumes "z"; taps that take the border colour have
+/// "border": true and null for the texel. Numbers that are not finite are null.
+std::string lookup_json(const ReportedLookup& lookup);
+
+/// Texture, sampler and precision, level of detail and each level's share, every tap, their sum and the result.
+std::string lookup_table(const ReportedLookup& lookup);
+
+}  // namespace rawtexel::cli

@@ -1,0 +1,130 @@
+#include "cli/sample_request.h"
+
+#include "cli/footprint_options.h"
+#include "cli/option_values.h"
+#include "cli/word_list.h"
+#include "scenes/load.h"
+#include "shading/draw_state.h"
+
+#include <algorithm>
+
+namespace rawtexel::cli {
+namespace {
+
+using texunit::Wrap;
+
+constexpr NumberRange kLod{-1000.0f, 1000.0f};  ///< levels
+constexpr int kMostLayers = 1 << 20;
+
+void declare_coordinates(CommandLine& line, SampleRequest& request, CoordinateKind kind, const std::string& help) {
+    const std::string option(option_of(kind));
+    line.option(option, std::string(form_of(kind)) + "|@FILE", help, [&request, kind, option](const std::string& text) {
+        if (request.coordinates)
+            throw UsageError(std::string(option_of(request.coordinates->kind)) + " and " + option + " exclude each other");
+        if (text == "@") throw UsageError(option + ": '@' names no file");
+        SampleRequest::Coordinates& coordinates = request.coordinates.emplace();
+        coordinates.kind = kind;
+        if (text.starts_with('@'))
+            coordinates.file = text.substr(1);
+        else
+            coordinates.place.at = parse_components(option, text, kind);
+    });
+}
+
+void declare_place(CommandLine& line, SampleRequest& request) {
+    line.group("Where");
+    declare_coordinates(line, request, CoordinateKind::Uv,
+                        "coordinates in a flat texture or an array; @FILE holds one lookup a line, \"u v [dudx dvdx dudy dvdy]\"");
+    declare_coordinates(line, request, CoordinateKind::Uvw, "the same in a volume, \"u v w [dudx dvdx dwdx dudy dvdy dwdy]\"");
+    declare_coordinates(line, request, CoordinateKind::Direction, "the same into a cube map, a direction of any length");
+    line.option("--ddx", "A,B[,C]", "change of the coordinates over one pixel to the right (default 0)",
+                [&](const std::string& text) { request.ddx = text; });
+    line.option("--ddy", "A,B[,C]", "change over one pixel down", [&](const std::string& text) { request.ddy = text; });
+    line.option("--lod", "L", "this level of detail, without derivatives, " + print(kLod),
+                [&](const std::string& text) { request.lod = parse_number("--lod", text, kLod); });
+    line.option("--layer", "N", "of an array, or cube of an array of cubes (default 0)",
+                [&](const std::string& text) { request.layer = int(parse_integer("--layer", text, 0, kMostLayers)); });
+}
+
+void declare_sampler(CommandLine& line, SampleRequest& request) {
+    line.group("Sampler");
+    declare_lookup_options(line, request.lookup);
+    line.option("--wrap", "S[,T[,R]]",
+                "beyond the edges: repeat (the default), mirror, clamp, border or mirror-once; an axis without one takes that before it",
+                [&](const std::string& text) { request.wraps = parse_wraps(text); });
+    line.option("--border", "R,G,B,A", "the linear colour of --wrap border (default 0,0,0,0)", [&](const std::string& text) {
+        const std::vector<float> colour = parse_numbers("--border", text, "R,G,B,A", 4, 4);
+        std::ranges::copy(colour, request.border.begin());
+    });
+    declare_color_space(line, request.color_space);
+    line.group("Footprint");
+    declare_lod_options(line, request.lookup.footprint);
+    line.option("--min-lod", "L", "no finer level of detail than this, " + print(kLod) + " (default 0)",
+                [&](const std::string& text) { request.min_lod = parse_number("--min-lod", text, kLod); });
+    line.option("--max-lod", "L", "no coarser one, --min-lod wins (default 1000)",
+                [&](const std::string& text) { request.max_lod = parse_number("--max-lod", text, kLod); });
+}
+
+void check_exclusions(const SampleRequest& request) {
+    if (request.ddx.empty() != request.ddy.empty())
+        throw UsageError(request.ddx.empty() ? "--ddy without --ddx (both, or neither)" : "--ddx without --ddy (both, or neither)");
+    if (!request.lod) return;
+    if (!request.ddx.empty()) throw UsageError("--lod and --ddx exclude each other");
+    if (request.lookup.footprint.ellipse > 0)
+        throw UsageError("--lod and --ewa exclude each other: the ellipse is that of the derivatives");
+}
+
+}  // namespace
+
+std::array<Wrap, 3> parse_wraps(std::string_view text) {
+    const std::vector<std::string> words = split(text, ',');
+    std::array<Wrap, 3> wraps{};
+    if (words.size() > wraps.size()) throw UsageError("--wrap: '" + std::string(text) + "' is not S[,T[,R]]");
+    for (size_t axis = 0; axis < wraps.size(); ++axis)
+        wraps[axis] = axis >= words.size()
+                          ? wraps[axis - 1]
+                          : parse_choice("--wrap", words[axis],
+                                         {Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge, Wrap::ClampToBorder, Wrap::MirrorOnce});
+    return wraps;
+}
+
+void declare_sample_request(CommandLine& line, SampleRequest& request) {
+    declare_place(line, request);
+    declare_sampler(line, request);
+}
+
+std::vector<LookupPlace> settle_places(const SampleRequest& request, std::string_view usage) {
+    check_exclusions(request);
+    if (!request.coordinates) throw UsageError("--uv U,V is missing (usage: rawtexel " + std::string(usage) + ")");
+    const auto& [kind, place, file] = *request.coordinates;
+    std::vector<LookupPlace> places = file.empty() ? std::vector{place} : read_places(file, kind);
+    const auto has_derivatives = [](const LookupPlace& each) { return each.derivatives.has_value(); };
+    if (request.lod && std::ranges::any_of(places, has_derivatives))
+        throw scenes::InputError(file + ": some lines hold derivatives, which --lod takes the place of");
+    if (request.ddx.empty()) return places;
+    const Derivatives derivatives{parse_components("--ddx", request.ddx, kind), parse_components("--ddy", request.ddy, kind)};
+    for (LookupPlace& each : places)
+        if (!each.derivatives) each.derivatives = derivatives;
+    return places;
+}
+
+texunit::SamplerState make_sampler(const SampleRequest& request) {
+    texunit::SamplerState sampler;
+    const LookupOptions& lookup = request.lookup;
+    shading::override_sampler({.filter = lookup.filter, .mip = lookup.mip, .footprint = lookup.footprint, .precision = lookup.precision},
+                              sampler);
+    sampler.wrap_s = request.wraps[0], sampler.wrap_t = request.wraps[1], sampler.wrap_r = request.wraps[2];
+    sampler.border = request.border;
+    sampler.min_lod = request.min_lod.value_or(sampler.min_lod);
+    sampler.max_lod = request.max_lod.value_or(sampler.max_lod);
+    if (!request.lod) return sampler;
+    const float biased = *request.lod + sampler.lod_bias;
+    sampler.min_lod = sampler.max_lod = std::max(std::min(biased, sampler.max_lod), sampler.min_lod);
+    sampler.lod_bias = 0;
+    // Without derivatives there is no axis to lay probes along.
+    sampler.probes = 1;
+    sampler.probe_variance = 0;
+    return sampler;
+}
+
+}  // namespace rawtexel::cli

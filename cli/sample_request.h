@@ -1,0 +1,46 @@
+// What a user can ask of one lookup: which place, through which sampler.
+#pragma once
+
+#include "cli/command_line.h"
+#include "cli/lookup_options.h"
+#include "cli/lookup_places.h"
+#include "cli/texture_file.h"
+#include "texunit/sampler.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rawtexel::cli {
+
+struct SampleRequest {
+    struct Coordinates {
+        CoordinateKind kind = CoordinateKind::Uv;
+        LookupPlace place;  ///< where `file` is empty
+        std::string file;   ///< of many places
+    };
+    std::optional<Coordinates> coordinates;
+    std::string ddx, ddy;      ///< as given, since their length depends on the coordinates; empty: none
+    std::optional<float> lod;  ///< instead of derivatives
+    int layer = 0;             ///< of an array, or cube of an array of cubes
+    LookupOptions lookup;
+    std::array<texunit::Wrap, 3> wraps{};
+    std::array<float, 4> border{};
+    std::optional<float> min_lod, max_lod;
+    std::optional<ColorSpace> color_space;
+};
+
+/// `text` S[,T[,R]]; an axis without one wraps as the axis before it.
+std::array<texunit::Wrap, 3> parse_wraps(std::string_view text);
+
+void declare_sample_request(CommandLine& line, SampleRequest& request);
+
+/// Checks what single options cannot, and gives the places that are to be looked up; reads their file. `usage` is for the message.
+/// Throws UsageError and scenes::InputError.
+std::vector<LookupPlace> settle_places(const SampleRequest& request, std::string_view usage);
+
+/// The sampler of the lookups. --lod takes no part in the search for a level: both bounds are that level, its bias added.
+texunit::SamplerState make_sampler(const SampleRequest& request);
+
+}  // namespace rawtexel::cli
