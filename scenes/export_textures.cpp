@@ -1,5 +1,6 @@
 #include "scenes/export_textures.h"
 
+#include "scenes/encoded_bytes.h"
 #include "scenes/image_io.h"
 
 #include "texunit/srgb.h"
@@ -42,18 +43,14 @@ Samples samples_of(Format format) {
     switch (format) {
         case Format::R8Srgb:
         case Format::RG8Srgb:
-        case Format::RGBA8Srgb:
-            return Samples::Srgb8;
+        case Format::RGBA8Srgb: return Samples::Srgb8;
         case Format::R8Unorm:
         case Format::RG8Unorm:
-        case Format::RGBA8Unorm:
-            return Samples::Unorm8;
+        case Format::RGBA8Unorm: return Samples::Unorm8;
         case Format::R16Unorm:
         case Format::RG16Unorm:
-        case Format::RGBA16Unorm:
-            return Samples::Unorm16;
-        default:
-            return Samples::None;
+        case Format::RGBA16Unorm: return Samples::Unorm16;
+        default: return Samples::None;
     }
 }
 
@@ -124,7 +121,8 @@ int ExportTextures::image(int index, bool color) {
     const auto [entry, is_new] = image_of_.try_emplace(identity, int(images_.size()));
     if (!is_new) return entry->second;
     if (source.encoded) {
-        images_.push_back({{"name", source.image_name}, {"mimeType", source.mime_type}, {"bufferView", buffer_.add_view(*source.encoded)}});
+        images_.push_back(
+            {{"name", source.image_name}, {"mimeType", source.mime_type}, {"bufferView", buffer_.add_view(all_bytes(*source.encoded))}});
         return entry->second;
     }
 

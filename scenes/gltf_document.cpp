@@ -3,7 +3,6 @@
 #include "scenes/gltf_container.h"
 #include "scenes/gltf_schema.h"
 #include "scenes/gltf_uri.h"
-#include "scenes/image_io.h"
 #include "scenes/message_text.h"
 #include "scenes/utf8.h"
 
@@ -86,31 +85,39 @@ void tell_of_animations(const GltfDocument& document, const json& original, cons
     if (animations != original.end() && !animations->empty()) options.warn(document.path + ": animations are left out");
 }
 
+SharedBytes read_all(const texunit::ByteSource& source) { return std::make_shared<const std::vector<std::byte>>(all_bytes(source)); }
+
 /// What messages call the owner of a URI, such as "buffers[0] 'scene.bin'".
 std::string owner_of(const std::string& what, const std::string& uri) { return what + " '" + shortened(uri) + "'"; }
 
-/// Reads what URIs name, each file once.
+/// Opens what URIs name, and reads it where it is asked for, each file once.
 class Resources {
   public:
     Resources(GltfDocument& document, const LoadOptions& options) : document_(document), options_(options) {}
 
     /// `what` holds the URI, such as "buffers[0]". Sets `mime_type` where the URI tells it.
-    SharedBytes read(const std::string& uri, const std::string& what, std::string& mime_type) {
+    EncodedBytes open(const std::string& uri, const std::string& what, std::string& mime_type) {
         const std::string owner = owner_of(what, uri);
         if (is_data_uri(uri)) {
             auto data = decode_data_uri(uri);
             if (!data) document_.fail(owner + " is a malformed data URI");
             if (mime_type.empty()) mime_type = data->mime_type;
-            return std::make_shared<const std::vector<std::byte>>(std::move(data->bytes));
+            return texunit::open_memory(document_.path + ": " + owner, std::move(data->bytes));
         }
         if (uri.empty()) document_.fail(what + " has an empty URI");
         if (percent_decoded(uri).find('\0') != std::string::npos) document_.fail(owner + " holds a zero byte");
         if (leaves_the_folder_tree(uri)) document_.fail(what + " refers to " + shortened(uri) + " (allowed: relative paths and data URIs)");
-        return read_relative(uri, owner);
+        return open_relative(uri, owner);
+    }
+
+    SharedBytes contents(const EncodedBytes& source) {
+        auto [entry, is_new] = contents_.try_emplace(source);
+        if (is_new) entry->second = read_all(*source);
+        return entry->second;
     }
 
   private:
-    SharedBytes read_relative(const std::string& uri, const std::string& owner) {
+    EncodedBytes open_relative(const std::string& uri, const std::string& owner) {
         auto [entry, is_new] = files_.try_emplace(uri);
         if (!is_new) return entry->second;
         const std::filesystem::path folder = std::filesystem::path(document_.path).parent_path();
@@ -118,25 +125,25 @@ class Resources {
         // Exporters that do not escape write the file's name as it is.
         std::error_code ignored;
         if (!std::filesystem::exists(file, ignored) && std::filesystem::exists(folder / uri, ignored)) file = folder / uri;
-        entry->second = std::make_shared<const std::vector<std::byte>>(read_named(file.string(), owner));
+        entry->second = bytes_of_file(document_.path + ": " + owner, file.string());
         document_.memory->grant(entry->second->size());
         options_.opened(file.string());
         return entry->second;
     }
 
-    /// Failures are told of the owner: the file's own name, which read_file puts first, may be anything.
-    std::vector<std::byte> read_named(const std::string& file, const std::string& owner) const try {
-        return read_file(file);
-    } catch (const InputError& error) {
-        document_.fail(owner + std::string(error.what()).substr(file.size()));
-    }
-
     GltfDocument& document_;
     const LoadOptions& options_;
-    std::map<std::string, SharedBytes> files_;
+    std::map<std::string, EncodedBytes> files_;
+    std::map<EncodedBytes, SharedBytes> contents_;
 };
 
-void read_buffers(GltfDocument& document, const json& checked, Resources& resources, const SharedBytes& file,
+/// A glTF or GLB file itself.
+struct MainFile {
+    EncodedBytes source;
+    SharedBytes bytes;
+};
+
+void read_buffers(GltfDocument& document, const json& checked, Resources& resources, const MainFile& file,
                   const std::optional<std::span<const std::byte>>& binary) {
     const json none = json::array();
     const json& buffers = checked.contains("buffers") ? checked["buffers"] : none;
@@ -147,13 +154,16 @@ void read_buffers(GltfDocument& document, const json& checked, Resources& resour
         if (buffers[i].contains("uri")) {
             const std::string uri = buffers[i]["uri"].get<std::string>();
             std::string mime_type;
-            const SharedBytes bytes = resources.read(uri, what, mime_type);
+            buffer.source = resources.open(uri, what, mime_type);
+            const SharedBytes bytes = resources.contents(buffer.source);
             if (!is_data_uri(uri)) what = owner_of(what, uri);
             buffer.owner = bytes;
             buffer.bytes = *bytes;
         } else if (i == 0 && binary) {
-            buffer.owner = file;
+            buffer.owner = file.bytes;
             buffer.bytes = *binary;
+            buffer.source = file.source;
+            buffer.source_offset = uint64_t(binary->data() - file.bytes->data());
         } else {
             document.buffers.push_back(buffer);
             continue;
@@ -182,8 +192,16 @@ std::string image_name(const json& image, size_t number) {
     return "image " + std::to_string(number);
 }
 
-void read_images(GltfDocument& document, const json& checked, Resources& resources) {
-    std::map<int, SharedBytes> from_views;
+/// The bytes of a buffer view, where the buffer has them from.
+EncodedBytes view_of(const GltfDocument& document, int index, std::string name) {
+    const std::span<const std::byte> bytes = document.view(index);
+    const tinygltf::BufferView& view = document.model.bufferViews[size_t(index)];
+    const GltfBuffer& buffer = document.buffers[size_t(view.buffer)];
+    return part_of(std::move(name), buffer.source, buffer.source_offset + view.byteOffset, bytes.size());
+}
+
+void open_images(GltfDocument& document, const json& checked, Resources& resources) {
+    std::map<int, EncodedBytes> from_views;
     const json none = json::array();
     const json& images = checked.contains("images") ? checked["images"] : none;
     for (size_t i = 0; i < images.size(); ++i) {
@@ -193,15 +211,12 @@ void read_images(GltfDocument& document, const json& checked, Resources& resourc
         if (image.contains("uri") == image.contains("bufferView")) document.fail(what + " needs either a uri or a bufferView");
         if (image.contains("uri")) {
             const std::string uri = image["uri"].get<std::string>();
-            result.encoded = resources.read(uri, what, result.mime_type);
+            result.encoded = resources.open(uri, what, result.mime_type);
             if (!is_data_uri(uri)) result.file_name = percent_decoded(uri);
         } else {
-            SharedBytes& bytes = from_views[image["bufferView"].get<int>()];
-            if (!bytes) {
-                const auto view = document.view(image["bufferView"].get<int>());
-                document.memory->spend(view.size());
-                bytes = std::make_shared<const std::vector<std::byte>>(view.begin(), view.end());
-            }
+            const int view = image["bufferView"].get<int>();
+            EncodedBytes& bytes = from_views[view];
+            if (!bytes) bytes = view_of(document, view, document.path + ": " + what);
             result.encoded = bytes;
         }
         document.images.push_back(std::move(result));
@@ -243,10 +258,11 @@ GltfDocument read_gltf_document(const std::string& path, const LoadOptions& opti
     GltfDocument document;
     document.path = path;
     document.memory = std::make_shared<MemoryAllowance>(path);
-    const auto file = std::make_shared<const std::vector<std::byte>>(read_file(path));
-    document.memory->grant(file->size());
+    const EncodedBytes source = bytes_of_file(path, path);
+    const MainFile file{source, read_all(*source)};
+    document.memory->grant(file.bytes->size());
     options.opened(path);
-    const GltfContainer container = split_gltf(path, *file);
+    const GltfContainer container = split_gltf(path, *file.bytes);
     if (container.json.size() > kMaxJsonBytes)
         document.fail("JSON of " + std::to_string(container.json.size()) + " bytes (allowed: 2 GiB)");
 
@@ -263,7 +279,7 @@ GltfDocument read_gltf_document(const std::string& path, const LoadOptions& opti
     Resources resources(document, options);
     read_buffers(document, checked, resources, file, container.binary);
     check_buffer_views(document);
-    read_images(document, checked, resources);
+    open_images(document, checked, resources);
     return document;
 }
 

@@ -1,6 +1,7 @@
 // A glTF file taken apart: its JSON checked and parsed, its buffers and images as bytes.
 #pragma once
 
+#include "scenes/encoded_bytes.h"
 #include "scenes/load.h"
 
 #include <tiny_gltf.h>
@@ -19,14 +20,16 @@ struct GltfBuffer {
     std::shared_ptr<const void> owner;
     std::span<const std::byte> bytes;
     uint64_t declared_bytes = 0;
+    EncodedBytes source;         ///< where `bytes` came from: file or memory,
+    uint64_t source_offset = 0;  ///< and at which byte of it
 };
 
-/// An image as the file holds it.
+/// An image as the file holds it. Its bytes stay where they are.
 struct GltfImage {
     std::string name;       ///< for messages and the texture: the image's own name, else its file's, else its number
     std::string mime_type;  ///< as declared; may be empty
     std::string file_name;  ///< empty when it comes from a data URI or a buffer
-    std::shared_ptr<const std::vector<std::byte>> encoded;
+    EncodedBytes encoded;
 };
 
 /// Memory that a file may ask for in all: hostile files can name the same bytes many times over.
@@ -57,7 +60,7 @@ struct GltfDocument {
     std::span<const std::byte> view(int buffer_view) const;
 };
 
-/// Reads the file and every file it names. Throws InputError.
+/// Reads the file and every buffer it names, and opens every image. Throws InputError and, where they cannot be read, TextureError.
 GltfDocument read_gltf_document(const std::string& path, const LoadOptions& options);
 
 }  // namespace rawtexel::scenes

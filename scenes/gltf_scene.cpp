@@ -155,12 +155,14 @@ double scene_reach(const shading::Scene& scene) {
 
 }  // namespace
 
-shading::Scene load_gltf(const std::string& path, const LoadOptions& options) {
+shading::Scene load_gltf(const std::string& path, const LoadOptions& options) try {
     const GltfDocument document = read_gltf_document(path, options);
     shading::Scene scene = SceneBuilder(document, options).build();
     const double reach = scene_reach(scene);
     if (!(reach < kMaxReach)) document.fail("the scene reaches " + print_short(reach) + " metres (allowed: below 1e15)");
     return scene;
+} catch (const texunit::TextureError& error) {
+    throw InputError(one_line(error.what()));
 }
 
 }  // namespace rawtexel::scenes

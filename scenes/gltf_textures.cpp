@@ -1,8 +1,8 @@
 #include "scenes/gltf_textures.h"
 
+#include "scenes/encoded_bytes.h"
 #include "scenes/image_claim.h"
 #include "scenes/image_codec.h"
-#include "scenes/message_text.h"
 
 #include "texunit/containers.h"
 
@@ -13,29 +13,13 @@ namespace {
 
 using texunit::ContainerKind;
 
-/// Bytes of an image that the scene keeps, as the container readers see them.
-class EncodedBytes final : public texunit::ByteSource {
-  public:
-    EncodedBytes(std::string name, std::shared_ptr<const std::vector<std::byte>> bytes)
-        : name_(std::move(name)), bytes_(std::move(bytes)) {}
-    uint64_t size() const override { return bytes_->size(); }
-    const std::string& name() const override { return name_; }
-    bool in_memory() const override { return true; }
-    void read(uint64_t offset, std::span<std::byte> out) const override {
-        if (offset > bytes_->size() || out.size() > bytes_->size() - offset)
-            throw texunit::TextureError(name_ + ": truncated (" + std::to_string(bytes_->size()) + " bytes, " +
-                                        std::to_string(offset + out.size()) + " are needed)");
-        if (!out.empty()) std::memcpy(out.data(), bytes_->data() + offset, out.size());
-    }
-
-  private:
-    std::string name_;
-    std::shared_ptr<const std::vector<std::byte>> bytes_;
-};
+/// So many bytes tell what an image is.
+constexpr uint64_t kSignatureBytes = 64;
 
 /// KTX2 whose texels are Basis Universal: no format of its own, or BasisLZ supercompression (KTX 2.0, 3.1 and 3.9).
-bool is_basis_universal(const std::vector<std::byte>& ktx2) {
+bool is_basis_universal(const texunit::ByteSource& bytes) {
     constexpr size_t kFormatOffset = 12, kSupercompressionOffset = 44;
+    const std::vector<std::byte> ktx2 = leading_bytes(bytes, kSupercompressionOffset + 4);
     if (ktx2.size() < kSupercompressionOffset + 4) return false;
     uint32_t format, supercompression;
     std::memcpy(&format, ktx2.data() + kFormatOffset, sizeof format);
@@ -86,10 +70,10 @@ GltfTextures::GltfTextures(const GltfDocument& document, const LoadOptions& opti
     : document_(document), texture_options_(options.texture), file_options_(options.files), notices_(notices) {
     for (size_t i = 0; i < document.images.size(); ++i) {
         const GltfImage& image = document.images[i];
-        check_image_claim(document.path + ": " + image.name, image.mime_type, image.file_name, *image.encoded);
-        const EncodedBytes bytes(image.name, image.encoded);
+        check_image_claim(document.path + ": " + image.name, image.mime_type, image.file_name,
+                          leading_bytes(*image.encoded, kSignatureBytes));
         // A texture that has a plain source does not need this one.
-        if (texunit::container_kind(bytes) == ContainerKind::Ktx2 && is_basis_universal(*image.encoded)) continue;
+        if (texunit::container_kind(*image.encoded) == ContainerKind::Ktx2 && is_basis_universal(*image.encoded)) continue;
         open(int(i), false);
     }
 }
@@ -97,15 +81,11 @@ GltfTextures::GltfTextures(const GltfDocument& document, const LoadOptions& opti
 std::unique_ptr<texunit::TexelSource> GltfTextures::open(int index, bool srgb) const {
     const GltfImage& image = document_.images[size_t(index)];
     const std::string name = document_.path + ": " + image.name;
-    try {
-        const auto bytes = std::make_shared<const EncodedBytes>(name, image.encoded);
-        switch (texunit::container_kind(*bytes)) {
-            case ContainerKind::Ktx2: return texunit::reinterpret_srgb(texunit::open_ktx2(bytes, file_options_), srgb);
-            case ContainerKind::Dds: return texunit::reinterpret_srgb(texunit::open_dds(bytes, file_options_), srgb);
-            default: return open_image_memory(name, image.encoded, srgb, file_options_.max_texture_bytes);
-        }
-    } catch (const texunit::TextureError& error) {
-        throw InputError(one_line(error.what()));
+    const EncodedBytes bytes = part_of(name, image.encoded, 0, image.encoded->size());
+    switch (texunit::container_kind(*bytes)) {
+        case ContainerKind::Ktx2: return texunit::reinterpret_srgb(texunit::open_ktx2(bytes, file_options_), srgb);
+        case ContainerKind::Dds: return texunit::reinterpret_srgb(texunit::open_dds(bytes, file_options_), srgb);
+        default: return open_image(bytes, srgb, file_options_.max_texture_bytes);
     }
 }
 
@@ -131,11 +111,11 @@ int GltfTextures::texture(int index, bool srgb) {
     if (!is_new) return entry->second;
 
     const GltfImage& source = document_.images[size_t(image)];
-    const EncodedBytes bytes(source.name, source.encoded);
     shading::SceneTexture texture;
     texture.texture = std::make_shared<texunit::Texture>(source.name, open(image, srgb), texture_options_);
     texture.image_name = source.name;
-    texture.mime_type = mime_type_of(texunit::container_kind(bytes), image_format(source.name, *source.encoded));
+    const std::string_view format = image_format(source.name, leading_bytes(*source.encoded, kSignatureBytes));
+    texture.mime_type = mime_type_of(texunit::container_kind(*source.encoded), format);
     if (texture.mime_type.empty()) texture.mime_type = source.mime_type;
     texture.srgb = srgb;
     texture.encoded = source.encoded;

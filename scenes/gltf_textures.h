@@ -15,11 +15,11 @@ namespace rawtexel::scenes {
 
 class GltfTextures {
   public:
-    /// Opens every image of the document, used or not. Throws InputError.
+    /// Opens every image of the document, used or not. Throws InputError and TextureError.
     GltfTextures(const GltfDocument& document, const LoadOptions& options, GltfNotices& notices);
 
     /// Index into `textures()` of glTF texture `texture` read as sRGB-encoded colour or as data; -1 when it has no image, as glTF allows.
-    /// Throws InputError.
+    /// Throws InputError and TextureError.
     int texture(int texture, bool srgb);
     /// Its sampler; silent properties are bilinear, linear between levels, and repeat.
     texunit::SamplerState sampler(int texture) const;

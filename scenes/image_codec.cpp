@@ -1,5 +1,6 @@
 #include "scenes/image_codec.h"
 
+#include "scenes/encoded_bytes.h"
 #include "scenes/image_png.h"
 #include "scenes/message_text.h"
 
@@ -150,7 +151,10 @@ std::string_view image_format(std::string_view name, Bytes encoded) {
     return {};
 }
 
-ImageHeader read_image_header(const std::string& name, Bytes encoded) try {
+namespace {
+
+/// Header of an image of `file_bytes`, of which `encoded` are the first.
+ImageHeader read_header(const std::string& name, Bytes encoded, uint64_t file_bytes) try {
     if (encoded.empty()) throw InputError(name + ": empty (0 bytes, an image was expected)");
     const std::string_view format = image_format(name, encoded);
     if (format.empty()) throw InputError(name + ": not an image of a known format (its first bytes match none)");
@@ -161,8 +165,30 @@ ImageHeader read_image_header(const std::string& name, Bytes encoded) try {
     check_extents(name, reader.spec);
     const ImageHeader header{reader.spec.width, reader.spec.height, reader.spec.nchannels, sample_type(reader.spec.format),
                              reader.spec.alpha_channel};
-    check_compression(name, header, encoded.size());
+    check_compression(name, header, file_bytes);
     return header;
+} catch (const TextureError& damage) {
+    throw InputError(damage.what());
+}
+
+/// Whether a header read from the first bytes alone is the one that all of them give.
+bool header_comes_first(std::string_view format) { return format == "png" || format == "jpeg"; }
+
+}  // namespace
+
+ImageHeader read_image_header(const std::string& name, Bytes encoded) { return read_header(name, encoded, encoded.size()); }
+
+ImageHeader read_image_header(const texunit::ByteSource& encoded) try {
+    // Metadata may push the pixels far back: a header that seems damaged is tried with more bytes.
+    for (uint64_t count = uint64_t{64} << 10; count < encoded.size(); count *= 16) {
+        const std::vector<std::byte> bytes = leading_bytes(encoded, count);
+        if (!header_comes_first(image_format(encoded.name(), bytes))) break;
+        try {
+            return read_header(encoded.name(), bytes, encoded.size());
+        } catch (const InputError&) {
+        }
+    }
+    return read_image_header(encoded.name(), all_bytes(encoded));
 } catch (const TextureError& damage) {
     throw InputError(damage.what());
 }
@@ -173,6 +199,9 @@ void read_image_pixels(const std::string& name, Bytes encoded, const ImageHeader
     const CheckedPng png(name, format, encoded, PngExtent::Whole);
     Reader reader(format, png.bytes());
     if (!reader.input || !reader.open(name)) throw TextureError(name + ": damaged image (" + reader.message() + ")");
+    // The file may have been replaced since its header was read.
+    const bool same = reader.spec.width == header.width && reader.spec.height == header.height && reader.spec.nchannels == header.channels;
+    if (!same || reader.spec.depth > 1 || reader.spec.deep) throw TextureError(name + ": has changed since its header was read");
     const bool read = reader.input->read_image(0, 0, 0, channels, type_desc(header.type), pixels, OIIO::stride_t(pixel_stride));
     const std::string message = reader.message();
     if (!read || (!message.empty() && !is_harmless(message)))

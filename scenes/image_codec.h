@@ -31,9 +31,11 @@ std::string_view image_format(std::string_view name, Bytes encoded);
 /// Reads and checks what precedes the pixels. Throws InputError: not an image, extents outside 1..kMaxExtent, deep or volume data,
 /// or far fewer bytes than any such image takes.
 ImageHeader read_image_header(const std::string& name, Bytes encoded);
+/// Reads no more of `encoded` than the header where it comes first, as in PNG and JPEG.
+ImageHeader read_image_header(const texunit::ByteSource& encoded);
 
 /// Reads channels [0, channels) as samples of `header.type` to `pixels`, `pixel_stride` bytes apart, rows from top to bottom without
-/// padding. Alpha stays unassociated. Throws TextureError when the data is damaged.
+/// padding. Alpha stays unassociated. Throws TextureError when the data is damaged or not what `header` says.
 void read_image_pixels(const std::string& name, Bytes encoded, const ImageHeader& header, int channels, std::byte* pixels,
                        size_t pixel_stride);
 

@@ -1,6 +1,7 @@
 // Images on disk, through OpenImageIO: the one door behind which that library lives.
 #pragma once
 
+#include "scenes/encoded_bytes.h"
 #include "scenes/load.h"
 #include "shading/image.h"
 #include "texunit/texel_source.h"
@@ -24,7 +25,8 @@ class OutputError : public std::runtime_error {
 /// The bytes of a regular file. Throws InputError.
 std::vector<std::byte> read_file(const std::string& path);
 
-/// An image as a texture: header checked now, pixels read on first use by whichever thread comes first, kept as RGBA of 8 or 16 bits,
+/// An image as a texture: header checked now, of PNG and JPEG files no more being read, of others the whole file but not kept; pixels read
+/// on first use by whichever thread comes first, kept as RGBA of 8 or 16 bits,
 /// half or float. Grey becomes r = g = b; alpha is unassociated; profiles, gamma and orientation in the file play no part (glTF 2.0 3.9.2).
 /// `srgb`: colour is encoded by the sRGB curve. 8-bit colour keeps its codes, 16-bit colour is decoded to float, float is linear already.
 /// Damage found in the pixels is a texunit::TextureError of every texel.
@@ -32,8 +34,7 @@ std::vector<std::byte> read_file(const std::string& path);
 /// unsupported.
 inline constexpr uint64_t kMaxImageBytes = texunit::ContainerOptions{}.max_texture_bytes;
 std::unique_ptr<texunit::TexelSource> open_image(const std::string& path, bool srgb, uint64_t max_bytes = kMaxImageBytes);
-std::unique_ptr<texunit::TexelSource> open_image_memory(std::string name, std::shared_ptr<const std::vector<std::byte>> encoded, bool srgb,
-                                                        uint64_t max_bytes = kMaxImageBytes);
+std::unique_ptr<texunit::TexelSource> open_image(EncodedBytes encoded, bool srgb, uint64_t max_bytes = kMaxImageBytes);
 
 /// The whole image as linear floats with its own channels. 8-bit and 16-bit integer images are decoded by the sRGB curve when
 /// `srgb_integers`.
@@ -45,7 +46,7 @@ using Metadata = std::vector<std::pair<std::string, std::string>>;
 void write_8bit(const std::string& path, int width, int height, int channels, std::span<const uint8_t> codes, const Metadata& metadata);
 /// Where an image lies in a larger one of which it is a part; zero extents: it is the whole.
 struct Placement {
-    int x = 0, y = 0;                        ///< of the upper left pixel
+    int x = 0, y = 0;                       ///< of the upper left pixel
     int whole_width = 0, whole_height = 0;  ///< pixels
 };
 

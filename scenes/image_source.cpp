@@ -85,11 +85,8 @@ std::vector<std::byte> linear_floats(std::span<const std::byte> pixels) {
 
 class ImageSource final : public texunit::TexelSource {
   public:
-    ImageSource(std::string name, std::shared_ptr<const std::vector<std::byte>> encoded, bool srgb)
-        : name_(std::move(name)),
-          encoded_(std::move(encoded)),
-          header_(read_image_header(name_, *encoded_)),
-          format_(texel_format(header_.type, srgb)) {}
+    ImageSource(EncodedBytes encoded, bool srgb)
+        : encoded_(std::move(encoded)), header_(read_image_header(*encoded_)), format_(texel_format(header_.type, srgb)) {}
 
     Format format() const override { return format_; }
     texunit::Shape shape() const override { return {.width = header_.width, .height = header_.height}; }
@@ -111,7 +108,7 @@ class ImageSource final : public texunit::TexelSource {
             const Layout layout = layout_of(header_);
             const size_t pixel_bytes = 4 * bytes_per_sample(header_.type);
             std::vector<std::byte> pixels(size_t(header_.width) * size_t(header_.height) * pixel_bytes);
-            read_image_pixels(name_, *encoded_, header_, channels_read(layout), pixels.data(), pixel_bytes);
+            read_image_pixels(encoded_->name(), all_bytes(*encoded_), header_, channels_read(layout), pixels.data(), pixel_bytes);
             arrange(header_.type, layout, pixels);
             const bool decode_srgb = header_.type == SampleType::Unorm16 && format_ == Format::RGBA32Float;
             rows_ = decode_srgb ? linear_floats(pixels) : std::move(pixels);
@@ -121,8 +118,7 @@ class ImageSource final : public texunit::TexelSource {
         encoded_.reset();
     }
 
-    std::string name_;
-    std::shared_ptr<const std::vector<std::byte>> encoded_;
+    EncodedBytes encoded_;
     ImageHeader header_;
     Format format_;
     std::once_flag decoded_;
@@ -132,9 +128,9 @@ class ImageSource final : public texunit::TexelSource {
 
 }  // namespace
 
-std::unique_ptr<texunit::TexelSource> open_image_memory(std::string name, std::shared_ptr<const std::vector<std::byte>> encoded, bool srgb,
-                                                        uint64_t max_bytes) {
-    auto source = std::make_unique<ImageSource>(name, std::move(encoded), srgb);
+std::unique_ptr<texunit::TexelSource> open_image(EncodedBytes encoded, bool srgb, uint64_t max_bytes) {
+    const std::string name = encoded->name();
+    auto source = std::make_unique<ImageSource>(std::move(encoded), srgb);
     if (source->stored_bytes() > max_bytes) {
         throw InputError(name + ": " + std::to_string(source->stored_bytes()) + " bytes of texels (at most " + std::to_string(max_bytes) +
                          " are allowed)");
@@ -142,8 +138,10 @@ std::unique_ptr<texunit::TexelSource> open_image_memory(std::string name, std::s
     return source;
 }
 
-std::unique_ptr<texunit::TexelSource> open_image(const std::string& path, bool srgb, uint64_t max_bytes) {
-    return open_image_memory(path, std::make_shared<const std::vector<std::byte>>(read_file(path)), srgb, max_bytes);
+std::unique_ptr<texunit::TexelSource> open_image(const std::string& path, bool srgb, uint64_t max_bytes) try {
+    return open_image(bytes_of_file(path, path), srgb, max_bytes);
+} catch (const texunit::TextureError& error) {
+    throw InputError(error.what());
 }
 
 }  // namespace rawtexel::scenes

@@ -1,6 +1,7 @@
 // The scene as data: meshes, materials, textures, lights, cameras. Loading it is another room's work.
 #pragma once
 
+#include "texunit/containers.h"
 #include "texunit/sampler.h"
 #include "texunit/texture.h"
 
@@ -84,14 +85,14 @@ struct Camera {
     float znear = 0.01f, zfar = 0.0f;   ///< zfar 0: unlimited (perspective only)
 };
 
-/// A texture and, where it came from a file, the file's own bytes for lossless export.
+/// A texture and, where it came from a file, where the file's own bytes are for lossless export.
 struct SceneTexture {
     std::shared_ptr<texunit::Texture> texture;
     std::string image_name;
     std::string mime_type;  ///< "image/png", "image/jpeg", "image/ktx2", "image/vnd-ms.dds", …
     bool srgb = false;      ///< read as sRGB-encoded colour
     /// The encoded image; null when the texture was generated and must be encoded anew.
-    std::shared_ptr<const std::vector<std::byte>> encoded;
+    std::shared_ptr<const texunit::ByteSource> encoded;
 };
 
 /// What a scene asks of its surroundings when the command line says nothing.

@@ -83,9 +83,10 @@ HWY_INLINE Line ratio_line(const Axes& axes, IntVec exponent, const LodRules& ru
     return line;
 }
 
-/// Gap of the probes, in standard deviations of what the level filters by itself, beyond which the level is made coarser instead, and the
-/// number of probes per ratio of standard deviations that just keeps it. Both from the measurements of docs/anisotropy.md.
-inline constexpr float kWidestGap = 2.22f;
+/// Gap of the probes, in standard deviations of what the level filters by itself, beyond which the level is made coarser instead; and the
+/// number of probes per ratio of standard deviations, which keeps the gap at 2.22 as long as so many are allowed: where they are scarce,
+/// holes are the smaller evil up to there. Both from the measurements of docs/anisotropy.md.
+inline constexpr float kWidestGap = 2.5f;
 inline constexpr float kProbesPerRatio = 2.05f;
 
 /// The level whose own filter has `variance` texels^2 along each axis, on average over its phase: box-filtered level l read bilinearly has

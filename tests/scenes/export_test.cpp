@@ -334,23 +334,24 @@ TEST(Export, KeepsSixteenBitData) {
 
 TEST(Export, KeepsTheBytesOfImagesThatCameFromFiles) {
     const TemporaryFolder folder;
-    const auto png = std::make_shared<std::vector<std::byte>>(encode_png(3, 2, 3, 8, random_bytes(18, 5)));
-    png->push_back(std::byte{42});  // what a decoder ignores must stay too
+    std::vector<std::byte> bytes = encode_png(3, 2, 3, 8, random_bytes(18, 5));
+    bytes.push_back(std::byte{42});  // what a decoder ignores must stay too
+    const EncodedBytes png = texunit::open_memory("photo", bytes);
     Scene scene = textured_triangle({nullptr, "photo", "image/png", true, png}, shading::kBaseColor);
-    scene.textures[0].texture = std::make_shared<Texture>("photo", open_image_memory("photo", png, true));
+    scene.textures[0].texture = std::make_shared<Texture>("photo", open_image(png, true));
     const Scene read = round_trip(scene, folder / "scene.glb");
     ASSERT_EQ(read.textures.size(), 1u);
-    EXPECT_EQ(*read.textures[0].encoded, *png);
+    EXPECT_EQ(all_bytes(*read.textures[0].encoded), bytes);
     EXPECT_EQ(read.textures[0].mime_type, "image/png");
     expect_same_scene(scene, read);
 }
 
 TEST(Export, StoresAnImageOnceForColourAndData) {
     const TemporaryFolder folder;
-    const auto png = std::make_shared<std::vector<std::byte>>(encode_png(3, 2, 3, 8, random_bytes(18, 6)));
+    const EncodedBytes png = texunit::open_memory("both", encode_png(3, 2, 3, 8, random_bytes(18, 6)));
     Scene scene = textured_triangle({nullptr, "both", "image/png", true, png}, shading::kBaseColor);
-    scene.textures[0].texture = std::make_shared<Texture>("both", open_image_memory("both", png, true));
-    scene.textures.push_back({std::make_shared<Texture>("both", open_image_memory("both", png, false)), "both", "image/png", false, png});
+    scene.textures[0].texture = std::make_shared<Texture>("both", open_image(png, true));
+    scene.textures.push_back({std::make_shared<Texture>("both", open_image(png, false)), "both", "image/png", false, png});
     scene.materials[0].maps[shading::kMetallicRoughness].texture = 1;
     const std::string path = folder / "scene.glb";
     expect_same_scene(scene, round_trip(scene, path));
@@ -378,19 +379,19 @@ std::vector<std::byte> dds_bc1() {
 
 TEST(Export, EmbedsBlockCompressedFilesAsTheyCame) {
     const TemporaryFolder folder;
-    const auto dds = std::make_shared<std::vector<std::byte>>(dds_bc1());
+    const EncodedBytes dds = texunit::open_memory("blocks", dds_bc1());
     Scene scene = textured_triangle({nullptr, "blocks", "image/vnd-ms.dds", true, dds}, shading::kBaseColor);
     scene.textures[0].texture = memory_texture(Format::RGBA8Srgb, 4, 4, random_bytes(64, 7));
     const std::string path = folder / "scene.glb";
     const Scene read = round_trip(scene, path);
     ASSERT_EQ(read.textures.size(), 1u);
-    EXPECT_EQ(*read.textures[0].encoded, *dds);
+    EXPECT_EQ(all_bytes(*read.textures[0].encoded), dds_bc1());
     EXPECT_EQ(texunit::info(read.textures[0].texture->format()).block_compressed, true);
     EXPECT_EQ(json_chunk(path)["extensionsRequired"], json::array({"MSFT_texture_dds"}));
     // And once more, from what was read.
     const Scene again = round_trip(read, folder / "again.glb");
     expect_same_scene(read, again);
-    EXPECT_EQ(*again.textures[0].encoded, *dds);
+    EXPECT_EQ(all_bytes(*again.textures[0].encoded), dds_bc1());
 }
 
 TEST(Export, RefusesWhatAPngCannotHold) {

@@ -1,4 +1,5 @@
 // Materials, their maps and samplers, and which textures they share.
+#include "scenes/encoded_bytes.h"
 #include "tests/scenes/gltf_fixture.h"
 
 #include <gtest/gtest.h>
@@ -107,7 +108,7 @@ TEST_F(GltfMaterialsTest, AnImageIsSharedPerUseAsColourOrData) {
     EXPECT_EQ(maps[shading::kMetallicRoughness].texture, maps[shading::kOcclusion].texture);
     EXPECT_NE(maps[shading::kBaseColor].texture, maps[shading::kOcclusion].texture);
     EXPECT_EQ(loaded.textures[0].encoded, loaded.textures[1].encoded);
-    EXPECT_EQ(*loaded.textures[0].encoded, test_png());
+    EXPECT_EQ(all_bytes(*loaded.textures[0].encoded), test_png());
     EXPECT_EQ(loaded.textures[0].mime_type, "image/png");
 }
 

@@ -24,18 +24,14 @@ namespace {
 using texunit::Format;
 using Texel = std::array<float, 4>;
 
-std::shared_ptr<const std::vector<std::byte>> shared(std::vector<std::byte> bytes) {
-    return std::make_shared<const std::vector<std::byte>>(std::move(bytes));
-}
-
 std::unique_ptr<texunit::Texture> texture_of(std::vector<std::byte> encoded, bool srgb) {
-    return std::make_unique<texunit::Texture>("image", open_image_memory("image", shared(std::move(encoded)), srgb));
+    return std::make_unique<texunit::Texture>("image", open_image(texunit::open_memory("image", std::move(encoded)), srgb));
 }
 
 /// The message of the InputError that opening throws, "" when there is none.
 std::string open_error(std::vector<std::byte> encoded) {
     try {
-        open_image_memory("image", shared(std::move(encoded)), false);
+        open_image(texunit::open_memory("image", std::move(encoded)), false);
         return "";
     } catch (const InputError& error) {
         return error.what();

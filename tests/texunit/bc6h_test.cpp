@@ -1,11 +1,14 @@
 #include "texunit/bc6h.h"
 
+#include "texunit/sample.h"
+
 #include "tests/reference/texunit/bc_bc6h.h"
 #include "tests/texunit/every_simd.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <iomanip>
 #include <random>
@@ -143,6 +146,66 @@ TEST(Bc6h, SignedValuesReachMinusInfinityAndNeverMinusZero) {
     const Halves texels = decode(reference::build_bc6h(fields), true);
     EXPECT_EQ(texels[0][0], 0xFC00);
     EXPECT_EQ(texels[0][1], 0x0000);
+}
+
+/// A texture of signed BC6H, black but for one block, of which one texel is minus infinity and the others are finite.
+class OneInfiniteTexel final : public TexelSource {
+  public:
+    static constexpr int kExtent = 16;
+
+    OneInfiniteTexel() {
+        Bc6hBlockFields fields{.mode = 13};
+        fields.code[0][0] = 0x8000;  // -32768 scales to the bits of minus infinity,
+        fields.code[1][0] = 7;       // -32768 + 7 to those of -65498
+        std::fill(std::begin(fields.index), std::end(fields.index), 7);
+        fields.index[5] = 0;
+        block_ = reference::build_bc6h(fields);
+    }
+    Format format() const override { return Format::BC6HSfloat; }
+    Shape shape() const override { return {.width = kExtent, .height = kExtent}; }
+    uint64_t stored_bytes() const override { return 256; }
+    void decode_block(int, int, int block_x, int block_y, std::byte* texels) override {
+        decode_bc6h_sfloat((block_x == 1 && block_y == 2 ? block_ : Block16{}).data(), texels);
+    }
+
+  private:
+    Block16 block_;
+};
+
+TEST(Bc6h, MinusInfinityIsSeenWhereItWeighsAndNowhereElse) {
+    std::vector<SamplerState> samplers = {
+        {.mip = MipMode::None}, {}, {.probes = 16}, {.probes = 16, .probe_variance = 0.25f}, {.ellipse = 0.25f}};
+    for (const Kernel kernel : {Kernel::Nearest, Kernel::Quadratic, Kernel::BSpline, Kernel::mitchell(), Kernel::CatmullRom,
+                                Kernel::Lanczos3, Kernel::gaussian()}) {
+        samplers.push_back({.magnify = kernel, .minify = kernel, .mip = MipMode::None});
+    }
+    on_every_simd([&] {
+        std::mt19937 random(7);
+        std::uniform_real_distribution<float> unit(0, 1);
+        for (const SamplerState& sampler : samplers) {
+            Texture texture("infinite", std::make_unique<OneInfiniteTexel>());
+            int finite = 0, infinite = 0;
+            for (int n = 0; n < 200; ++n) {
+                WaveCoordinates at;
+                for (int i = 0; i < kWaveLanes; ++i) {
+                    // Some lookups at texel centres, where neighbours weigh nothing.
+                    const auto place = [&] { return n % 2 ? unit(random) : (float(random() % 16) + 0.5f) / 16; };
+                    at.u[i] = place(), at.v[i] = place();
+                    at.dudx[i] = 0.3f * unit(random), at.dvdx[i] = 0.1f * unit(random);
+                    at.dudy[i] = -0.02f * unit(random), at.dvdy[i] = 0.06f * unit(random);
+                }
+                WaveColor colour;
+                sample_wave(texture, sampler, at, kWaveFull, colour);
+                for (int i = 0; i < kWaveLanes; ++i) {
+                    const float red = colour.channel[0][i];
+                    ASSERT_FALSE(std::isnan(red)) << to_string(sampler.magnify) << " at " << at.u[i] << ", " << at.v[i];
+                    ++(std::isinf(red) ? infinite : finite);
+                }
+            }
+            EXPECT_GT(finite, 0) << to_string(sampler.magnify);
+            EXPECT_GT(infinite, 0) << to_string(sampler.magnify);
+        }
+    });
 }
 
 }  // namespace
