@@ -30,6 +30,8 @@ scenes::Metadata image_metadata(const RunRecord& record, bool has_display_transf
     }
     if (record.result.fetches) {
         const texunit::FetchCounts fetches = record.result.fetches->total();
+        metadata.emplace_back("rawtexel:fetch-model", std::string(to_string(request.fetches.model)));
+        if (request.fetches.cache) metadata.emplace_back("rawtexel:cache", to_string(*request.fetches.cache));
         metadata.emplace_back("rawtexel:lookups", std::to_string(fetches.lookups));
         metadata.emplace_back("rawtexel:taps", std::to_string(fetches.taps));
         metadata.emplace_back("rawtexel:texels_requested", std::to_string(fetches.texels_requested));

@@ -224,7 +224,7 @@ std::vector<Aov> parse_aovs(std::string_view text) {
     std::vector<Aov> aovs;
     for (const std::string& word : split(text, ',')) {
         const Aov aov =
-            parse_choice("--aov", word, {Aov::Depth, Aov::Normal, Aov::Albedo, Aov::Uv, Aov::Lod, Aov::Material, Aov::Texels, Aov::Spp});
+            parse_choice("--aov", word, {Aov::Depth, Aov::Normal, Aov::Albedo, Aov::Uv, Aov::Lod, Aov::Material, Aov::Texels, Aov::Lines, Aov::Spp});
         if (std::ranges::find(aovs, aov) != aovs.end()) throw UsageError("--aov: '" + word + "' is named twice");
         aovs.push_back(aov);
     }
@@ -241,6 +241,7 @@ void declare_render_options(CommandLine& line, RenderRequest& request) {
     declare_footprint_options(line, request.lookup.footprint);
     declare_sample_options(line, request.samples);
     declare_tone_options(line, request.tone);
+    declare_fetch_options(line, request.fetches);
     declare_machine_options(line, request.machine);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cli/command_line.h"
+#include "cli/fetch_options.h"
 #include "cli/lookup_options.h"
 #include "cli/progress.h"
 #include "shading/display.h"
@@ -93,6 +94,7 @@ struct RenderRequest {
     LookupOptions lookup;
     SampleOptions samples;
     ToneOptions tone;
+    FetchRequest fetches;
     MachineOptions machine;
 
     ImageSize image_size() const { return size.value_or(ImageSize{}); }

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace rawtexel::scenes {
 namespace {
@@ -26,44 +27,6 @@ std::string temporary_name(const std::string& target) {
     return (std::filesystem::path(target).parent_path() / name).string();
 }
 
-/// A file under a temporary name that is removed unless it is published.
-class TemporaryFile {
-  public:
-    explicit TemporaryFile(const std::string& path) : path_(path), target_(written_path(path)), temporary_(temporary_name(target_)) {
-        file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (file_ < 0) fail(path_, "cannot be written", errno);
-    }
-    ~TemporaryFile() {
-        if (file_ >= 0) ::close(file_);
-        if (!published_) ::unlink(temporary_.c_str());
-    }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-    void write(std::span<const std::byte> bytes) {
-        while (!bytes.empty()) {
-            const ssize_t written = ::write(file_, bytes.data(), bytes.size());
-            if (written < 0 && errno == EINTR) continue;
-            if (written <= 0) fail(path_, "cannot be written whole", errno);
-            bytes = bytes.subspan(size_t(written));
-        }
-    }
-
-    void publish() {
-        // Some file systems report a full disk only here.
-        const int closed = ::close(file_);
-        file_ = -1;
-        if (closed != 0) fail(path_, "cannot be written whole", errno);
-        if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, "cannot be replaced", errno);
-        published_ = true;
-    }
-
-  private:
-    std::string path_, target_, temporary_;
-    int file_ = -1;
-    bool published_ = false;
-};
-
 /// What no attempt to create a file beside the place would show: a folder in its place, a name that no file can have.
 void check_place(const std::string& path) {
     struct stat status {};
@@ -72,13 +35,6 @@ void check_place(const std::string& path) {
     } else if (errno != ENOENT) {
         fail(path, "cannot be written", errno);
     }
-}
-
-void write_special(const std::string& path, std::span<const std::byte> bytes) {
-    std::FILE* file = std::fopen(path.c_str(), "wb");
-    if (!file) fail(path, "cannot be written", errno);
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-    if (std::fclose(file) != 0 || !written) fail(path, "cannot be written whole", errno);
 }
 
 }  // namespace
@@ -100,17 +56,98 @@ bool is_special(const std::string& path) {
     return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) && !std::filesystem::is_directory(status);
 }
 
-void write_file(const std::string& path, std::span<const std::byte> bytes) {
+/// Where bytes go until they are all there.
+class OutputStream::Target {
+  public:
+    Target() = default;
+    virtual ~Target() = default;
+    Target(const Target&) = delete;
+    Target& operator=(const Target&) = delete;
+    virtual void write(std::span<const std::byte> bytes) = 0;
+    virtual void finish() = 0;
+};
+
+/// A file under a temporary name that is removed unless it is finished.
+class OutputStream::TemporaryFile final : public Target {
+  public:
+    explicit TemporaryFile(const std::string& path) : path_(path), target_(written_path(path)), temporary_(temporary_name(target_)) {
+        file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file_ < 0) fail(path_, "cannot be written", errno);
+    }
+    ~TemporaryFile() override {
+        if (file_ >= 0) ::close(file_);
+        if (!finished_) ::unlink(temporary_.c_str());
+    }
+    void write(std::span<const std::byte> bytes) override {
+        while (!bytes.empty()) {
+            const ssize_t written = ::write(file_, bytes.data(), bytes.size());
+            if (written < 0 && errno == EINTR) continue;
+            if (written <= 0) fail(path_, "cannot be written whole", errno);
+            bytes = bytes.subspan(size_t(written));
+        }
+    }
+
+    void finish() override {
+        // Some file systems report a full disk only here.
+        const int closed = ::close(file_);
+        file_ = -1;
+        if (closed != 0) fail(path_, "cannot be written whole", errno);
+        if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, "cannot be replaced", errno);
+        finished_ = true;
+    }
+
+  private:
+    std::string path_, target_, temporary_;
+    int file_ = -1;
+    bool finished_ = false;
+};
+
+/// A device, which is written to as it is.
+class OutputStream::SpecialFile final : public Target {
+  public:
+    explicit SpecialFile(const std::string& path) : path_(path), file_(std::fopen(path.c_str(), "wb")) {
+        if (!file_) fail(path_, "cannot be written", errno);
+    }
+    ~SpecialFile() override {
+        if (file_) std::fclose(file_);
+    }
+    void write(std::span<const std::byte> bytes) override {
+        if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(path_, "cannot be written whole", errno);
+    }
+    void finish() override {
+        const int closed = std::fclose(std::exchange(file_, nullptr));
+        if (closed != 0) fail(path_, "cannot be written whole", errno);
+    }
+
+  private:
+    std::string path_;
+    std::FILE* file_;
+};
+
+OutputStream::OutputStream(const std::string& path) {
     check_place(path);
-    if (is_special(path)) return write_special(path, bytes);
-    TemporaryFile file(path);
-    file.write(bytes);
-    file.publish();
+    if (is_special(path)) {
+        target_ = std::make_unique<SpecialFile>(path);
+    } else {
+        target_ = std::make_unique<TemporaryFile>(path);
+    }
+}
+
+OutputStream::~OutputStream() = default;
+
+void OutputStream::write(std::span<const std::byte> bytes) { target_->write(bytes); }
+
+void OutputStream::finish() { target_->finish(); }
+
+void write_file(const std::string& path, std::span<const std::byte> bytes) {
+    OutputStream stream(path);
+    stream.write(bytes);
+    stream.finish();
 }
 
 void check_writable(const std::string& path) {
     check_place(path);
-    if (!is_special(path)) TemporaryFile unpublished(path);
+    if (!is_special(path)) OutputStream unfinished(path);
 }
 
 }  // namespace rawtexel::scenes

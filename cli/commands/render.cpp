@@ -1,5 +1,6 @@
 #include "cli/commands/render.h"
 
+#include "cli/fetch_files.h"
 #include "cli/illumination.h"
 #include "cli/image_output.h"
 #include "cli/limits.h"
@@ -30,8 +31,7 @@ void choose_instruction_set(texunit::Simd simd) {
     throw UsageError("--simd: " + std::string(to_string(simd)) + " is not available on this machine (" + join(available, " ") + ")");
 }
 
-shading::RenderOptions frame_options(const RenderRequest& request, const shading::Camera& camera, std::vector<shading::Aov> aovs,
-                                     bool count) {
+shading::RenderOptions frame_options(const RenderRequest& request, const shading::Camera& camera, std::vector<shading::Aov> aovs) {
     shading::RenderOptions options;
     options.width = request.image_size().width;
     options.height = request.image_size().height;
@@ -48,7 +48,9 @@ shading::RenderOptions frame_options(const RenderRequest& request, const shading
     options.background = request.tone.white_backdrop ? glm::vec3(0.0f) : request.light.background;
     options.coverage = request.tone.white_backdrop;
     options.aovs = std::move(aovs);
-    options.fetches.count = count;
+    options.fetches.count = request.fetches.counts();
+    options.fetches.model = request.fetches.model;
+    options.fetches.cache = request.fetches.cache;
     options.tile_size = request.machine.tile_size;
     return options;
 }
@@ -91,7 +93,10 @@ class RenderCommand : public Command {
         line.group("More output");
         line.option("--aov", "LIST", "layers of an .exr: any of depth,normal,albedo,uv,lod,material,texels,lines,spp",
                     [this](const std::string& text) { aovs_ = parse_aovs(text); });
-        line.flag("--count", "count lookups, taps and texels", count_);
+        line.option("--counts", "FILE.exr", "the image with layers of counts, pixel by pixel (rawtexel list counters)",
+                    [this](const std::string& text) { counts_ = text; });
+        line.option("--trace", "FILE.zst", "every texel read, one by one (docs/trace.md)",
+                    [this](const std::string& text) { trace_ = text; });
         line.option("--stats", "FILE", "the run's numbers as JSON", [this](const std::string& text) { stats_ = text; });
         line.option("--repeat", "N",
                     "render the frame N times for its timing, 1 to " + std::to_string(kMaxRepeats) +
@@ -113,11 +118,10 @@ class RenderCommand : public Command {
     void write_stats(const RunRecord& record, const shading::Scene& scene) const;
 
     std::vector<std::string> words_;
-    std::string scene_, output_, stats_;
+    std::string scene_, output_, stats_, counts_, trace_;
     std::optional<Scenario> scenario_;
     RenderRequest request_;
     std::vector<shading::Aov> aovs_;
-    bool count_ = false;
     int repeats_ = 1;
 };
 
@@ -139,6 +143,8 @@ void RenderCommand::settle_words() {
 std::vector<OutputFile> RenderCommand::output_files() const {
     std::vector<OutputFile> files{{"-o", output_}};
     if (!stats_.empty()) files.push_back({"--stats", stats_});
+    if (!counts_.empty()) files.push_back({"--counts", counts_});
+    if (!trace_.empty()) files.push_back({"--trace", trace_});
     return files;
 }
 
@@ -153,6 +159,8 @@ void RenderCommand::check_before_long_work(const Invocation& invocation) const {
     check_image_format("-o", output_);
     if (!aovs_.empty() && !stores_layers(output_))
         throw UsageError("--aov: '" + output_ + "' cannot hold layers, the format that can is '.exr'");
+    if (!counts_.empty() && !stores_layers(counts_))
+        throw UsageError("--counts: '" + counts_ + "' cannot hold layers, the format that can is '.exr'");
     const ToneOptions& tone = request_.tone;
     const bool tone_asked = tone.exposure || tone.transfer || (tone.tone_map && !request_.light.peer_shading);
     if (tone_asked && scenes::is_float_format(output_))
@@ -181,9 +189,11 @@ shading::RenderResult RenderCommand::render_frames(const shading::Scene& scene, 
                                                    ProgressReport& progress, RunRecord& record) const {
     progress.begin("rendering", sample_count(options) * repeats_);
     shading::RenderResult first;
+    shading::RenderOptions frame = options;
     for (int repeat = 0; repeat < repeats_; ++repeat) {
+        if (repeat > 0) frame.fetches.trace = nullptr;
         shading::RenderResult result =
-            shading::render(scene, lighting, options, executor, [&](double share) { progress.update((repeat + share) / repeats_); });
+            shading::render(scene, lighting, frame, executor, [&](double share) { progress.update((repeat + share) / repeats_); });
         record.times.frame_s.push_back(result.times.frame_s);
         if (repeat > 0) continue;
         record.work = texture_work(scene);
@@ -219,19 +229,24 @@ int RenderCommand::run(const Invocation& invocation) {
     record.view = view.options;
     record.request = request_;
     record.times.load_s = ProgressReport::steady_seconds() - start;
-    const shading::RenderOptions options = frame_options(request_, view.camera, aovs_, count_);
+    shading::RenderOptions options = frame_options(request_, view.camera, aovs_);
+    options.fetches.pixel_layers = !counts_.empty();
+    std::optional<TraceFile> trace;
+    if (!trace_.empty()) options.fetches.trace = &trace.emplace(trace_).writer();
     record.result = render_frames(scene, lighting, options, *executor, progress, record);
 
     const double write_start = ProgressReport::steady_seconds();
     const scenes::Metadata metadata = image_metadata(record, !scenes::is_float_format(output_));
     write_image(output_, record.result, request_.tone, placement(request_), metadata);
+    if (!counts_.empty()) write_counts(counts_, record.result, placement(request_), metadata);
+    if (trace) trace->finish();
     const double end = ProgressReport::steady_seconds();
     record.times.write_s = end - write_start;
     record.times.total_s = end - start;
     if (!stats_.empty()) write_stats(record, scene);
 
     invocation.out << "Camera: " << view.options << '\n';
-    if (count_) print_fetches(invocation.out, record.result);
+    if (record.result.fetches) print_fetches(invocation.out, record.result);
     invocation.out << "Saved: " << output_ << '\n';
     return kDone;
 }
