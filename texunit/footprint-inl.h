@@ -286,6 +286,19 @@ HWY_INLINE WaveMask nearest_lanes(const SamplerState& sampler, const LevelChoice
     return (sampler.magnify == Kernel::Nearest ? choice.magnify : 0) | (sampler.minify == Kernel::Nearest ? ~choice.magnify : 0);
 }
 
+/// One kernel and no levels: lambda decides nothing.
+HWY_INLINE bool needs_no_level(const SamplerState& sampler, const WaveFloat* lod) {
+    return sampler.mip == MipMode::None && sampler.magnify == sampler.minify && lod == nullptr;
+}
+
+/// Levels of an isotropic lookup.
+HWY_INLINE void choose_levels(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at, LevelChoice& choice,
+                              WaveFloat* lod) {
+    if (needs_no_level(sampler, lod)) return choose_base_level(choice);
+    select_levels(table, sampler, at, choice);
+    if (lod != nullptr) *lod = choice.lod;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace rawtexel::texunit
 HWY_AFTER_NAMESPACE();

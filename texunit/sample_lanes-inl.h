@@ -19,32 +19,6 @@ namespace rawtexel::texunit {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The array layer nearest to each lane's coordinate, ties to even, within the array (Vulkan "Array Layer Selection"). Not a number is 0.
-HWY_NOINLINE inline void select_layers(const WaveFloat& layer, WaveMask mask, int layers, WaveInt& slice) {
-    const FloatTag d;
-    const IntTag di;
-    WaveFloat filled;
-    repeat_first(layer, mask, filled);
-    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto a = hn::Load(d, filled.lane + i);
-        const auto number = hn::IfThenZeroElse(hn::IsNaN(a), a);
-        const auto within = hn::Min(hn::Max(number, hn::Zero(d)), hn::Set(d, float(layers - 1)));
-        hn::Store(hn::ConvertTo(di, round_small(within)), di, slice.lane + i);
-    }
-}
-
-/// One kernel and no levels: lambda decides nothing.
-HWY_INLINE bool needs_no_level(const SamplerState& sampler, const WaveFloat* lod) {
-    return sampler.mip == MipMode::None && sampler.magnify == sampler.minify && lod == nullptr;
-}
-
-HWY_INLINE void choose_levels(const Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, LevelChoice& choice,
-                              WaveFloat* lod) {
-    if (needs_no_level(sampler, lod)) return choose_base_level(choice);
-    select_levels(texture.levels(), sampler, at, choice);
-    if (lod != nullptr) *lod = choice.lod;
-}
-
 /// Nobody asks: nothing is read.
 HWY_INLINE void answer_empty_mask(WaveColor& out, WaveFloat* lod) {
     out = {};
@@ -88,7 +62,7 @@ HWY_NOINLINE void sample_lanes(Texture& texture, const SamplerState& sampler, co
         return sample_anisotropic(texture, sampler, at, position, mask, count, out, lod);
     }
     LevelChoice choice;
-    choose_levels(texture, sampler, at, choice, lod);
+    choose_levels(texture.levels(), sampler, at, choice, lod);
     sample_levels(texture, sampler, position, choice, mask, count, out);
 }
 
@@ -147,7 +121,7 @@ HWY_NOINLINE void sample_volume_lanes(Texture& texture, const SamplerState& samp
     LevelChoice choice;
     WaveCoordinates flat{at.position[0], at.position[1], {}, {}, {}, {}};
     if (!needs_no_level(state, lod)) flatten_derivatives(texture.levels(), state.lod_rule, at, flat);
-    choose_levels(texture, state, flat, choice, lod);
+    choose_levels(texture.levels(), state, flat, choice, lod);
     begin_lookups(texture, mask, count);
     sample_levels(texture, state, {.u = &at.position[0], .v = &at.position[1], .w = &at.position[2]}, choice, mask, count, out);
 }
@@ -171,7 +145,7 @@ HWY_NOINLINE void sample_cube_lanes(Texture& texture, const SamplerState& sample
     }
     const SamplerState state = isotropic(sampler);
     LevelChoice choice;
-    choose_levels(texture, state, cube.face, choice, lod);
+    choose_levels(texture.levels(), state, cube.face, choice, lod);
     begin_lookups(texture, mask, count);
     const WavePosition position{.u = &cube.face.u, .v = &cube.face.v, .slice = &cube.slice, .u_rest = &cube.u_rest, .v_rest = &cube.v_rest};
     sample_levels(texture, state, position, choice, mask, count, out);

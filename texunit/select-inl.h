@@ -267,6 +267,20 @@ HWY_INLINE void select_taps(const LevelTable& table, const SamplerState& sampler
     if (!leaves_y) std::fill(taps.outside_y, taps.outside_y + W, WaveMask{0});
 }
 
+/// The array layer nearest to each lane's coordinate, ties to even, within the array (Vulkan "Array Layer Selection"). Not a number is 0.
+HWY_NOINLINE inline void select_layers(const WaveFloat& layer, WaveMask mask, int layers, WaveInt& slice) {
+    const FloatTag d;
+    const IntTag di;
+    WaveFloat filled;
+    repeat_first(layer, mask, filled);
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        const auto a = hn::Load(d, filled.lane + i);
+        const auto number = hn::IfThenZeroElse(hn::IsNaN(a), a);
+        const auto within = hn::Min(hn::Max(number, hn::Zero(d)), hn::Set(d, float(layers - 1)));
+        hn::Store(hn::ConvertTo(di, round_small(within)), di, slice.lane + i);
+    }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace rawtexel::texunit
 HWY_AFTER_NAMESPACE();

@@ -1,8 +1,9 @@
 // Lookups per second beside OpenImageIO's TextureSystem: the same coherent lookups into the same 4096x4096 RGBA8 texture, one thread, all
 // of it decoded on either side; `lazy` is ours where only what the walk reads was decoded. The footprint is 2.7 texels wide (0.5 where
 // there are no levels) and as many times longer as the probes allow, along a diagonal.
+#include "texunit/draw.h"
 #include "texunit/memory_source.h"
-#include "texunit/sample.h"
+#include "texunit/random.h"
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>

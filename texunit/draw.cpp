@@ -1,0 +1,78 @@
+#include "texunit/draw.h"
+
+#include <cassert>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "texunit/draw.cpp"
+#include <hwy/foreach_target.h>
+
+#include "texunit/draw-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace rawtexel::texunit {
+namespace HWY_NAMESPACE {
+
+void draw(Texture& texture, const SamplerState& sampler, const WaveCoordinates& coordinates, WaveMask mask, const DrawNumbers& numbers,
+          TexelDraw& drawn, const WaveFloat* layer) {
+    WaveCoordinates filled;
+    if (mask != kWaveFull) fill_inactive(coordinates, mask, filled);
+    if (layer != nullptr) {
+        select_layers(*layer, mask, texture.shape().layers, drawn.slice);
+    } else {
+        drawn.slice = {};
+    }
+    draw_lanes(texture.levels(), sampler, mask == kWaveFull ? coordinates : filled, mask, numbers, drawn);
+}
+
+void read(Texture& texture, const SamplerState& sampler, const TexelDraw& drawn, WaveColor& out) {
+    read_drawn_lanes(texture, sampler, drawn, out);
+}
+
+void draw_and_read(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
+                   WaveColor& out, const WaveFloat* layer) {
+    TexelDraw drawn;
+    draw(texture, sampler, at, mask, numbers, drawn, layer);
+    read_drawn_lanes(texture, sampler, drawn, out);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rawtexel::texunit
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rawtexel::texunit {
+
+HWY_EXPORT(draw);
+HWY_EXPORT(read);
+HWY_EXPORT(draw_and_read);
+
+bool weighs_as_probability(const Kernel& kernel) {
+    switch (kernel.kind) {
+        case KernelKind::Mitchell: return kernel.c == 0 && kernel.b >= 1 && kernel.b <= 1;
+        case KernelKind::CatmullRom:
+        case KernelKind::Lanczos2:
+        case KernelKind::Lanczos3: return false;
+        default: return true;
+    }
+}
+
+void draw_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
+               TexelDraw& drawn, const WaveFloat* layer) {
+    assert(mask != 0 && texture.shape().depth == 1 && sampler.ellipse <= 0);
+    assert(weighs_as_probability(sampler.magnify) && weighs_as_probability(sampler.minify));
+    HWY_DYNAMIC_DISPATCH(draw)(texture, sampler, at, mask, numbers, drawn, layer);
+}
+
+void read_drawn_wave(Texture& texture, const SamplerState& sampler, const TexelDraw& drawn, WaveColor& out) {
+    HWY_DYNAMIC_DISPATCH(read)(texture, sampler, drawn, out);
+}
+
+void sample_drawn_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
+                       WaveColor& out, const WaveFloat* layer) {
+    assert(mask != 0 && texture.shape().depth == 1 && sampler.ellipse <= 0);
+    assert(weighs_as_probability(sampler.magnify) && weighs_as_probability(sampler.minify));
+    HWY_DYNAMIC_DISPATCH(draw_and_read)(texture, sampler, at, mask, numbers, out, layer);
+}
+
+}  // namespace rawtexel::texunit
+#endif

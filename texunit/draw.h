@@ -1,0 +1,37 @@
+// A lookup of one texel, drawn with the probability that its filter weighs it with: filter reservoir sampling (Wyman et al. 2024,
+// "Filtering After Shading With Stochastic Texture Filtering"). The mean of many draws is what sample_wave returns.
+#pragma once
+
+#include "texunit/sample.h"
+
+namespace rawtexel::texunit {
+
+/// Uniform numbers in [0, 1), one a lane for each choice and independent of each other. Maps that share them read the same texel.
+struct DrawNumbers {
+    WaveFloat x, y;   ///< the texel along either axis (Dimension::TapX, TapY)
+    WaveFloat level;  ///< the coarser level or the finer (Dimension::Level)
+    WaveFloat probe;  ///< of an anisotropic lookup (Dimension::Probe)
+};
+
+/// The texel that each lane drew.
+struct TexelDraw {
+    WaveInt level, slice, x, y;
+    WaveMask border = 0;  ///< lanes that take the border colour
+};
+
+/// Whether all weights of the kernel are probabilities. Others need two draws, one for either sign.
+bool weighs_as_probability(const Kernel& kernel);
+
+/// Draws for the lanes of `mask` in a 2-D texture, or in `layer` of an array; reads no texel. The kernels' weights are probabilities
+/// (asserted), and sampler.ellipse is 0. Levels, probes and kernels are chosen as by sample_wave; other lanes repeat an active one.
+void draw_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
+               TexelDraw& draw, const WaveFloat* layer = nullptr);
+
+/// The drawn texels, linear RGBA. Throws TextureError as sample_wave does.
+void read_drawn_wave(Texture& texture, const SamplerState& sampler, const TexelDraw& draw, WaveColor& out);
+
+/// Both at once.
+void sample_drawn_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
+                       WaveColor& out, const WaveFloat* layer = nullptr);
+
+}  // namespace rawtexel::texunit
