@@ -18,8 +18,11 @@ constexpr GLenum kMaxAnisotropy = 0x84FE;  ///< GL_TEXTURE_MAX_ANISOTROPY
 constexpr int kBlock = 4;
 constexpr int kColumns = 64;  ///< blocks a row
 
+/// Half of the viewport, which is four times as large as the target: a triangle that needs no clipping has no edge within the target, where
+/// pixels outside would lend their differences without having read their lookups.
 constexpr const char* kVertexShader = R"(#version 430
-void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); })";
+void main() { gl_Position = vec4(gl_VertexID == 1 ? 1 : -1, gl_VertexID == 2 ? 1 : -1, 0, 1); })";
+constexpr int kViewportScale = 4;
 
 constexpr const char* kFragmentShader = R"(#version 430
 struct Lookup { vec2 uv, ddx, ddy; };
@@ -131,7 +134,7 @@ class OpenglSampler final : public PeerSampler {
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target);
         glGenVertexArrays(1, &vertices);
         glBindVertexArray(vertices);
-        glViewport(0, 0, width, height);
+        glViewport(0, 0, width * kViewportScale, height * kViewportScale);
         glUseProgram(program_);
         glDrawArrays(GL_TRIANGLES, 0, 3);
         std::vector<float> pixels(size_t(width) * size_t(height));
