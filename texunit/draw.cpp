@@ -7,10 +7,28 @@
 #include <hwy/foreach_target.h>
 
 #include "texunit/draw-inl.h"
+#include "texunit/random-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rawtexel::texunit {
 namespace HWY_NAMESPACE {
+
+void hash_numbers(const RandomAddress& first, DrawNumbers& numbers) {
+    const hn::ScalableTag<uint32_t> du;
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(du)) {
+        const auto lane = hn::Iota(du, uint32_t(i));
+        const auto x = hn::Add(hn::Set(du, first.x), hn::And(lane, hn::Set(du, kWaveWidth - 1)));
+        const auto y = hn::Add(hn::Set(du, first.y), hn::ShiftRight<3>(lane));
+        static_assert(kWaveWidth == 1 << 3);
+        const auto state = random_state_v(du, first.seed, first.sample, x, y, hn::Set(du, first.surface));
+        const auto number = [&](Dimension dimension, WaveFloat& out)
+                                HWY_ATTR { hn::Store(unit_float_v(du, random_bits_v(du, state, dimension)), FloatTag(), out.lane + i); };
+        number(Dimension::TapX, numbers.x);
+        number(Dimension::TapY, numbers.y);
+        number(Dimension::Level, numbers.level);
+        number(Dimension::Probe, numbers.probe);
+    }
+}
 
 void draw(Texture& texture, const SamplerState& sampler, const WaveCoordinates& coordinates, WaveMask mask, const DrawNumbers& numbers,
           TexelDraw& drawn, const WaveFloat* layer) {
@@ -42,9 +60,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rawtexel::texunit {
 
+HWY_EXPORT(hash_numbers);
 HWY_EXPORT(draw);
 HWY_EXPORT(read);
 HWY_EXPORT(draw_and_read);
+
+void draw_numbers(const RandomAddress& first, DrawNumbers& numbers) { HWY_DYNAMIC_DISPATCH(hash_numbers)(first, numbers); }
 
 bool weighs_as_probability(const Kernel& kernel) {
     switch (kernel.kind) {

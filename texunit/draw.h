@@ -2,6 +2,7 @@
 // "Filtering After Shading With Stochastic Texture Filtering"). The mean of many draws is what sample_wave returns.
 #pragma once
 
+#include "texunit/random.h"
 #include "texunit/sample.h"
 
 namespace rawtexel::texunit {
@@ -12,6 +13,9 @@ struct DrawNumbers {
     WaveFloat level;  ///< the coarser level or the finer (Dimension::Level)
     WaveFloat probe;  ///< of an anisotropic lookup (Dimension::Probe)
 };
+
+/// The numbers of a wave whose upper left pixel is (first.x, first.y); first.dimension is not looked at.
+void draw_numbers(const RandomAddress& first, DrawNumbers& numbers);
 
 /// The texel that each lane drew.
 struct TexelDraw {

@@ -117,7 +117,8 @@ struct Walk {
     float step() const { return minor / kExtent; }
 };
 
-void look_up_waves(benchmark::State& state, rawtexel::texunit::Texture& texture, Walk walk, SamplerState sampler) {
+/// The walk's lookups, wave by wave.
+std::vector<WaveCoordinates> waves_of(const Walk& walk) {
     std::vector<WaveCoordinates> waves(size_t(kColumns / kWaveWidth) * (kRows / kWaveHeight));
     constexpr int kWavesPerRow = kTile / kWaveWidth, kWavesPerTile = kWavesPerRow * kTile / kWaveHeight;
     for (size_t w = 0; w < waves.size(); ++w) {
@@ -130,6 +131,11 @@ void look_up_waves(benchmark::State& state, rawtexel::texunit::Texture& texture,
             waves[w].dudy[lane] = -walk.dudy(), waves[w].dvdy[lane] = walk.dudy();
         }
     }
+    return waves;
+}
+
+void look_up_waves(benchmark::State& state, rawtexel::texunit::Texture& texture, Walk walk, SamplerState sampler) {
+    const std::vector<WaveCoordinates> waves = waves_of(walk);
     rawtexel::texunit::WaveColor color;
     for (const WaveCoordinates& at : waves) sample_wave(texture, sampler, at, rawtexel::texunit::kWaveFull, color);
     for (auto _ : state) {
@@ -143,6 +149,23 @@ void look_up_waves(benchmark::State& state, rawtexel::texunit::Texture& texture,
 
 void ours(benchmark::State& state, Walk walk, SamplerState sampler) { look_up_waves(state, whole_texture(), walk, sampler); }
 void ours_lazy(benchmark::State& state, Walk walk, SamplerState sampler) { look_up_waves(state, lazy_texture(), walk, sampler); }
+
+/// One texel a lookup, its random numbers hashed on the way, as a renderer's are.
+void ours_drawn(benchmark::State& state, Walk walk, SamplerState sampler) {
+    const std::vector<WaveCoordinates> waves = waves_of(walk);
+    rawtexel::texunit::WaveColor color;
+    uint32_t sample = 0;
+    for (auto _ : state) {
+        for (size_t w = 0; w < waves.size(); ++w) {
+            rawtexel::texunit::DrawNumbers numbers;
+            draw_numbers({.x = uint32_t(w) * kWaveWidth, .y = 0, .sample = sample}, numbers);
+            sample_drawn_wave(whole_texture(), sampler, waves[w], rawtexel::texunit::kWaveFull, numbers, color);
+            benchmark::DoNotOptimize(color);
+        }
+        ++sample;
+    }
+    state.SetItemsProcessed(state.iterations() * kColumns * kRows);
+}
 
 void openimageio(benchmark::State& state, Walk walk, OIIO::TextureOpt::MipMode mode) {
     TextureSystemFile& peer = texture_system();
@@ -158,6 +181,7 @@ void openimageio(benchmark::State& state, Walk walk, OIIO::TextureOpt::MipMode m
         for (int i = 0; i < kColumns * kRows; ++i) {
             const int column = i / (kTile * kTile) * kTile + i % kTile, row = i / kTile % kTile;
             OIIO::TextureOpt own = options;  // the call may write to it
+            own.rnd = float(i % 1024) / 1024;
             peer.system->texture(handle, thread, own, walk.u(column, row), walk.v(column, row), walk.dudx(), walk.dudx(), -walk.dudy(),
                                  walk.dudy(), 4, color);
             benchmark::DoNotOptimize(color);
@@ -179,6 +203,8 @@ BENCHMARK_CAPTURE(ours_lazy, anisotropic_16, kLong, SamplerState{.probes = 16});
 BENCHMARK_CAPTURE(ours, anisotropic_16_exact_axes, kLong, SamplerState{.probes = 16, .lod_rule = rawtexel::texunit::LodRule::Exact});
 BENCHMARK_CAPTURE(ours, anisotropic_16_by_variance, kLong, SamplerState{.probes = 16, .probe_variance = 1.0f / 6});
 BENCHMARK_CAPTURE(openimageio, anisotropic_16, kLong, OIIO::TextureOpt::MipModeAniso);
+BENCHMARK_CAPTURE(ours_drawn, stochastic_anisotropic_16, kLong, SamplerState{.probes = 16});
+BENCHMARK_CAPTURE(openimageio, stochastic_anisotropic_16, kLong, OIIO::TextureOpt::MipModeStochasticAniso);
 BENCHMARK_CAPTURE(ours, elliptical, kLong, SamplerState{.ellipse = 1.0f / 6});
 
 }  // namespace

@@ -21,16 +21,7 @@ using Place = std::tuple<int, int, int, int>;
 
 DrawNumbers random_numbers(uint32_t sample) {
     DrawNumbers numbers;
-    for (uint32_t lane = 0; lane < kWaveLanes; ++lane) {
-        RandomAddress address{.x = lane, .y = 7, .sample = sample};
-        for (const auto& [number, dimension] : {std::pair{&numbers.x, Dimension::TapX},
-                                                {&numbers.y, Dimension::TapY},
-                                                {&numbers.level, Dimension::Level},
-                                                {&numbers.probe, Dimension::Probe}}) {
-            address.dimension = dimension;
-            (*number)[int(lane)] = random_float(address);
-        }
-    }
+    draw_numbers({.x = 0, .y = 8, .sample = sample}, numbers);
     return numbers;
 }
 
@@ -139,6 +130,24 @@ TEST(Draw, OverAllNumbersGivesTheWeights) {
 }
 
 class DrawOnSimd : public testing::TestWithParam<Simd> {};
+
+TEST_P(DrawOnSimd, HashesTheNumbersOfItsPixels) {
+    const Simd before = chosen_simd();
+    ASSERT_TRUE(choose_simd(GetParam()));
+    DrawNumbers numbers;
+    draw_numbers({.x = 40, .y = 12, .sample = 3, .surface = 5, .seed = 9}, numbers);
+    ASSERT_TRUE(choose_simd(before));
+    for (uint32_t lane = 0; lane < kWaveLanes; ++lane) {
+        RandomAddress address{.x = 40 + lane % 8, .y = 12 + lane / 8, .sample = 3, .surface = 5, .seed = 9};
+        for (const auto& [number, dimension] : {std::pair{&numbers.x, Dimension::TapX},
+                                                {&numbers.y, Dimension::TapY},
+                                                {&numbers.level, Dimension::Level},
+                                                {&numbers.probe, Dimension::Probe}}) {
+            address.dimension = dimension;
+            EXPECT_EQ((*number)[int(lane)], random_float(address));
+        }
+    }
+}
 
 TEST_P(DrawOnSimd, PicksTheSameTexelsAndReadsThem) {
     Texture texture("hashed", make_hashed_pyramid(Format::RGBA16Unorm, 100, 64));
