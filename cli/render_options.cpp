@@ -223,8 +223,8 @@ std::optional<glm::vec3> parse_background(std::string_view text) {
 std::vector<Aov> parse_aovs(std::string_view text) {
     std::vector<Aov> aovs;
     for (const std::string& word : split(text, ',')) {
-        const Aov aov =
-            parse_choice("--aov", word, {Aov::Depth, Aov::Normal, Aov::Albedo, Aov::Uv, Aov::Lod, Aov::Material, Aov::Texels, Aov::Lines, Aov::Spp});
+        const Aov aov = parse_choice(
+            "--aov", word, {Aov::Depth, Aov::Normal, Aov::Albedo, Aov::Uv, Aov::Lod, Aov::Material, Aov::Texels, Aov::Lines, Aov::Spp});
         if (std::ranges::find(aovs, aov) != aovs.end()) throw UsageError("--aov: '" + word + "' is named twice");
         aovs.push_back(aov);
     }

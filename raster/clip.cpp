@@ -20,20 +20,13 @@ ScreenVertex cut(const ScreenVertex& p, const ScreenVertex& q, double p_distance
 double distance(ClipPlane plane, const ScreenVertex& v) {
     constexpr double guard = kGuardBand;
     switch (plane) {
-        case ClipPlane::Near:
-            return v.w - v.z;
-        case ClipPlane::Far:
-            return v.z;
-        case ClipPlane::PositiveW:
-            return v.w - kSmallestW;
-        case ClipPlane::Left:
-            return guard * v.w + v.x;
-        case ClipPlane::Right:
-            return guard * v.w - v.x;
-        case ClipPlane::Top:
-            return guard * v.w + v.y;
-        case ClipPlane::Bottom:
-            return guard * v.w - v.y;
+        case ClipPlane::Near: return v.w - v.z;
+        case ClipPlane::Far: return v.z;
+        case ClipPlane::PositiveW: return v.w - kSmallestW;
+        case ClipPlane::Left: return guard * v.w + v.x;
+        case ClipPlane::Right: return guard * v.w - v.x;
+        case ClipPlane::Top: return guard * v.w + v.y;
+        case ClipPlane::Bottom: return guard * v.w - v.y;
     }
     return 0.0;
 }

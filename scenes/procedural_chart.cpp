@@ -112,22 +112,14 @@ float spiral(glm::vec2 d) {
 
 float figure(int kind, glm::vec2 from_center) {
     switch (kind) {
-        case 0:
-            return zone_rings(from_center);
-        case 1:
-            return compass_rose(from_center);
-        case 2:
-            return bar_groups(from_center);
-        case 3:
-            return nested_diamonds(from_center);
-        case 4:
-            return siemens_star(from_center);
-        case 5:
-            return dot_field(from_center);
-        case 6:
-            return fine_checker(from_center);
-        default:
-            return spiral(from_center);
+        case 0: return zone_rings(from_center);
+        case 1: return compass_rose(from_center);
+        case 2: return bar_groups(from_center);
+        case 3: return nested_diamonds(from_center);
+        case 4: return siemens_star(from_center);
+        case 5: return dot_field(from_center);
+        case 6: return fine_checker(from_center);
+        default: return spiral(from_center);
     }
 }
 

@@ -34,8 +34,8 @@ HWY_ATTR inline void quad_corner_barycentrics(const SampleBlock& block, int colu
     raster::HWY_NAMESPACE::barycentric_wave(block.frame, block.setup_index, offset, block.x, block.y, mask, out);
 }
 
-/// Replaces the derivatives by the coarse differences of each lane's quad (Vulkan "Derivative Operations"): from its upper left pixel to the
-/// right and down.
+/// Replaces the derivatives by the coarse differences of each lane's quad (Vulkan "Derivative Operations"): from its upper left pixel to
+/// the right and down.
 HWY_ATTR inline void take_quad_differences(const SampleBlock& block, uint32_t mask, raster::BarycentricWave& weights) {
     raster::BarycentricWave corner, right, below;
     quad_corner_barycentrics(block, 0, 0, mask, corner);

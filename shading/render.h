@@ -41,7 +41,7 @@ struct RenderOptions {
     std::optional<texunit::MipMode> mip;
     FootprintOptions footprint;
     texunit::Precision precision = texunit::Precision::Exact;  ///< of every lookup
-    std::optional<glm::vec3> background;  ///< nullopt: the environment, black where there is none
+    std::optional<glm::vec3> background;                       ///< nullopt: the environment, black where there is none
     std::vector<Aov> aovs;
     bool coverage = false;  ///< fill RenderResult::coverage
     FetchOptions fetches;   ///< what RenderResult::fetches is to hold; layers of counts ask for theirs themselves

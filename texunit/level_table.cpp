@@ -7,9 +7,7 @@ namespace rawtexel::texunit {
 namespace {
 
 /// Array layers, or depth slices of a 3-D texture: what is stored apart within a level.
-uint64_t slices_of(const Shape& shape, int level) {
-    return uint64_t(shape.layers) * uint64_t(level_extent(shape.depth, level));
-}
+uint64_t slices_of(const Shape& shape, int level) { return uint64_t(shape.layers) * uint64_t(level_extent(shape.depth, level)); }
 
 }  // namespace
 

@@ -16,12 +16,12 @@ namespace rawtexel::texunit {
 
 /// What select and gather need to know of every level, as arrays for vector look-ups. Entries past `levels` are 1 or 0.
 struct LevelTable {
-    alignas(64) std::array<int32_t, 16> width{}, height{}, depth{};   ///< texels
-    alignas(64) std::array<int32_t, 16> offset{};                     ///< texels from the base of the storage
-    alignas(64) std::array<int32_t, 16> row_stride{};                 ///< texels of one row of pages
-    alignas(64) std::array<int32_t, 16> slice_stride{};               ///< texels of one array layer or depth slice
+    alignas(64) std::array<int32_t, 16> width{}, height{}, depth{};  ///< texels
+    alignas(64) std::array<int32_t, 16> offset{};                    ///< texels from the base of the storage
+    alignas(64) std::array<int32_t, 16> row_stride{};                ///< texels of one row of pages
+    alignas(64) std::array<int32_t, 16> slice_stride{};              ///< texels of one array layer or depth slice
     int32_t levels = 1;
-    uint64_t texels = 0;                                              ///< of the whole storage, padding to whole pages included
+    uint64_t texels = 0;  ///< of the whole storage, padding to whole pages included
 };
 
 /// Lays out a pyramid of `shape`. False when the storage would have 2^31 or more 32-bit words, the reach of a gather's index.

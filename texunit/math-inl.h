@@ -39,7 +39,7 @@ HWY_INLINE V multiply_add_odd(V a, V b, V c) {
     const V c_part = hn::Sub(sum, product);
     const V error = hn::Add(hn::Sub(product, hn::Sub(sum, c_part)), hn::Sub(c, c_part));
     const V zero = hn::Zero(d);
-    const auto inexact = hn::Or(error < zero, error > zero);
+    const auto inexact = hn::Or(error<zero, error> zero);
     const auto even = hn::TestBit(hn::Not(hn::BitCast(du, sum)), hn::Set(du, uint64_t{1}));
     // Step one last place towards the exact value: away from zero when error and sum agree in sign.
     const auto grow = hn::Eq(hn::ShiftRight<63>(hn::BitCast(du, error)), hn::ShiftRight<63>(hn::BitCast(du, sum)));

@@ -12,7 +12,7 @@ namespace rawtexel::texunit {
 /// covers [i*N/n, (i+1)*N/n): two halves when N is even, weights (n - i, n, i + 1) / N when N is odd, the one texel when N is 1.
 struct AreaWeights {
     int first = 0, count = 0;
-    std::array<double, 3> weight{};   ///< sums to 1
+    std::array<double, 3> weight{};  ///< sums to 1
 };
 AreaWeights area_weights(int finer_extent, int i);
 

@@ -7,17 +7,24 @@ namespace rawtexel::texunit {
 
 /// The role a number plays. Values are fixed: adding a role never changes the numbers of another.
 enum class Dimension : uint32_t {
-    PixelX = 0, PixelY = 1,      ///< sub-pixel position
-    TapX = 2, TapY = 3, TapZ = 4,
-    Level = 5, Probe = 6, Sign = 7,
-    Coverage = 8,                ///< MASK and BLEND
-    Layer = 9, Light = 10, Plane = 11,
+    PixelX = 0,
+    PixelY = 1,  ///< sub-pixel position
+    TapX = 2,
+    TapY = 3,
+    TapZ = 4,
+    Level = 5,
+    Probe = 6,
+    Sign = 7,
+    Coverage = 8,  ///< MASK and BLEND
+    Layer = 9,
+    Light = 10,
+    Plane = 11,
 };
 
 struct RandomAddress {
-    uint32_t x = 0, y = 0;       ///< pixel of the whole frame
+    uint32_t x = 0, y = 0;  ///< pixel of the whole frame
     uint32_t sample = 0;
-    uint32_t surface = 0;        ///< 0 for opaque geometry, else 1 + scene-order triangle id
+    uint32_t surface = 0;  ///< 0 for opaque geometry, else 1 + scene-order triangle id
     Dimension dimension = Dimension::PixelX;
     uint32_t seed = 0;
 };
@@ -28,7 +35,7 @@ struct RandomAddress {
 // since its values are few and small, and permuted twice: its numbers all start from the same state. The vector form (texunit/random-inl.h)
 // gives the same bits.
 
-constexpr uint32_t kRandomStart = 0x9E3779B9u;   ///< 2^32 / golden ratio: keeps the all-zero address off the permutation's fixed point 0
+constexpr uint32_t kRandomStart = 0x9E3779B9u;  ///< 2^32 / golden ratio: keeps the all-zero address off the permutation's fixed point 0
 
 constexpr uint32_t mix_bits(uint32_t bits) {
     bits = (bits ^ bits >> 16) * 0x7FEB352Du;

@@ -27,10 +27,10 @@ struct SamplerState {
     Kernel magnify = Kernel::Bilinear;  ///< used where lambda <= 0
     Kernel minify = Kernel::Bilinear;
     MipMode mip = MipMode::Linear;
-    Wrap wrap_r = Wrap::Repeat;  ///< third axis of 3-D textures
-    int probes = 1;              ///< most anisotropic probes, 1..64; 1 is isotropic
-    float probe_variance = 0.0f; ///< S2 > 0: probes and level of total covariance S2*J*J^T + I/6; 0: probes by the D3D and Vulkan rule
-    float ellipse = 0.0f;        ///< S2 > 0: filter by the exact ellipse of covariance S2*J*J^T + I/6 instead, over level 0
+    Wrap wrap_r = Wrap::Repeat;   ///< third axis of 3-D textures
+    int probes = 1;               ///< most anisotropic probes, 1..64; 1 is isotropic
+    float probe_variance = 0.0f;  ///< S2 > 0: probes and level of total covariance S2*J*J^T + I/6; 0: probes by the D3D and Vulkan rule
+    float ellipse = 0.0f;         ///< S2 > 0: filter by the exact ellipse of covariance S2*J*J^T + I/6 instead, over level 0
     LodRule lod_rule = LodRule::D3d;
     Precision precision = Precision::Exact;
     float lod_bias = 0.0f;                    ///< added to lambda before it is clamped

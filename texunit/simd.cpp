@@ -12,7 +12,7 @@ namespace {
 struct SimdTarget {
     Simd simd;
     std::string_view name;
-    int64_t target;   ///< highway's bit; lower bits are better sets
+    int64_t target;  ///< highway's bit; lower bits are better sets
 };
 
 constexpr std::array<SimdTarget, 5> kTargets = {{{Simd::Auto, "auto", 0},

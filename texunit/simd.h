@@ -9,7 +9,7 @@ namespace rawtexel::texunit {
 
 enum class Simd { Auto, Scalar, Sse4, Avx2, Avx3 };
 
-std::string_view to_string(Simd simd);                 // auto scalar sse4 avx2 avx3
+std::string_view to_string(Simd simd);  // auto scalar sse4 avx2 avx3
 std::optional<Simd> parse_simd(std::string_view text);
 
 /// The sets this machine runs and this build holds, slowest first; without Auto.

@@ -23,7 +23,7 @@ class TexelEncoder {
     uint64_t field(int channel, double linear) const;
 
     TexelLayout layout_;
-    std::array<std::vector<double>, 4> thresholds_;   ///< per sRGB channel: linear value half-way, in code space, from field i to i + 1
+    std::array<std::vector<double>, 4> thresholds_;  ///< per sRGB channel: linear value half-way, in code space, from field i to i + 1
 };
 
 }  // namespace rawtexel::texunit

@@ -51,7 +51,7 @@ struct Texture::Maker {
     int source_levels;
     LevelTable levels;
     ReservedMemory memory;
-    std::array<std::atomic<uint64_t>, kMaxLevels> blocks_left;   // per level
+    std::array<std::atomic<uint64_t>, kMaxLevels> blocks_left;  // per level
     std::atomic<uint64_t> decoded{0}, averaged{0};
 
     Maker(std::string texture_name, std::unique_ptr<TexelSource> texels, const TexelLayout& stored)

@@ -24,9 +24,9 @@ struct TextureOptions {
 
 /// What was done, as opposed to asked for. Read when no thread samples.
 struct TextureWork {
-    uint64_t blocks_decoded = 0;        ///< from the source
-    uint64_t blocks_decoded_mips = 0;   ///< made from their parents
-    uint64_t bytes_decoded = 0;         ///< of both
+    uint64_t blocks_decoded = 0;       ///< from the source
+    uint64_t blocks_decoded_mips = 0;  ///< made from their parents
+    uint64_t bytes_decoded = 0;        ///< of both
 };
 
 /// Thread-safe for sampling. The shape and the format are fixed at construction; texels appear as they are asked for.
@@ -39,11 +39,11 @@ class Texture {
     Texture& operator=(const Texture&) = delete;
 
     const std::string& name() const;
-    Format format() const;              ///< of the source
-    const Shape& shape() const;         ///< with all levels, those of the file and those made here
-    int source_levels() const;          ///< levels the file holds
-    uint64_t stored_bytes() const;      ///< of the source
-    uint64_t blocks_total() const;      ///< 4x4 blocks over all levels and slices
+    Format format() const;          ///< of the source
+    const Shape& shape() const;     ///< with all levels, those of the file and those made here
+    int source_levels() const;      ///< levels the file holds
+    uint64_t stored_bytes() const;  ///< of the source
+    uint64_t blocks_total() const;  ///< 4x4 blocks over all levels and slices
     TextureWork work() const;
 
     const TexelLayout& texel_layout() const;
@@ -75,7 +75,7 @@ class Texture {
     void make_blocks(int32_t group, uint64_t missing);
 
   private:
-    struct Maker;   // whatever is needed to make blocks, and not to read them
+    struct Maker;  // whatever is needed to make blocks, and not to read them
     std::unique_ptr<Maker> maker_;
     LevelTable levels_;
     std::unique_ptr<BlockStates> states_;

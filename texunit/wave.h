@@ -5,9 +5,9 @@
 
 namespace rawtexel::texunit {
 
-inline constexpr int kWaveWidth = 8;    ///< pixels
-inline constexpr int kWaveHeight = 4;   ///< pixels
-inline constexpr int kWaveLanes = 32;   ///< lane = x + 8*y inside the block
+inline constexpr int kWaveWidth = 8;   ///< pixels
+inline constexpr int kWaveHeight = 4;  ///< pixels
+inline constexpr int kWaveLanes = 32;  ///< lane = x + 8*y inside the block
 
 /// One bit per lane, bit i = lane i.
 using WaveMask = uint32_t;

@@ -15,14 +15,15 @@ void frame(benchmark::State& state, const scenes::BuiltinScene& builtin) {
     const shading::Scene scene = builtin.make({});
     const auto executor = shading::make_executor(shading::default_executor_kind(), 0);
     std::shared_ptr<const shading::Environment> environment;
-    if (scene.environment == shading::EnvironmentRequest::Sky) environment = std::make_shared<shading::Environment>(shading::sky_latlong(), *executor);
+    if (scene.environment == shading::EnvironmentRequest::Sky)
+        environment = std::make_shared<shading::Environment>(shading::sky_latlong(), *executor);
     const shading::Lighting lighting = shading::resolve_lighting(scene, scene.lights, 0.0f, environment, true, *executor);
 
     shading::RenderOptions options;
     options.width = 1920;
     options.height = 1080;
     options.camera = scene.cameras.empty() ? shading::default_camera(scene.bounds(), 1920.0f / 1080.0f) : scene.cameras[0];
-    shading::render(scene, lighting, options, *executor);   // textures are decoded on first touch
+    shading::render(scene, lighting, options, *executor);  // textures are decoded on first touch
     shading::RenderTimes sum;
     for (auto _ : state) {
         const shading::RenderResult result = shading::render(scene, lighting, options, *executor);
@@ -40,7 +41,8 @@ void frame(benchmark::State& state, const scenes::BuiltinScene& builtin) {
 
 int main(int argc, char** argv) {
     for (const scenes::BuiltinScene& builtin : scenes::builtin_scenes()) {
-        benchmark::RegisterBenchmark(("frame/" + std::string(builtin.name)).c_str(), [&builtin](benchmark::State& state) { frame(state, builtin); })
+        benchmark::RegisterBenchmark(("frame/" + std::string(builtin.name)).c_str(),
+                                     [&builtin](benchmark::State& state) { frame(state, builtin); })
             ->Unit(benchmark::kMillisecond)
             ->UseRealTime();
     }

@@ -117,8 +117,8 @@ TEST_F(GltfDocumentTest, NumbersInMessagesAreWords) {
     fixture_.json.erase("samplers");
     fixture_.json["accessors"][0].erase("bufferView");
     fixture_.json["accessors"][0]["count"] = 100000000;
-    EXPECT_TRUE(
-        says(error(), "accessors[0] has 100000000 elements without a buffer view, all zero (allowed: 65536 and one for each of the file's"));
+    EXPECT_TRUE(says(error(),
+                     "accessors[0] has 100000000 elements without a buffer view, all zero (allowed: 65536 and one for each of the file's"));
     fixture_.json["accessors"][0]["count"] = 1e300;
     EXPECT_TRUE(says(error(), "(allowed: an integer from 1 to 2^53)"));
 }

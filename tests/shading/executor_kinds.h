@@ -1,4 +1,5 @@
-// The executors that tests run on. Debian's TBB is not instrumented: under the thread sanitizer it would report its own hand-overs as races.
+// The executors that tests run on. Debian's TBB is not instrumented: under the thread sanitizer it would report its own hand-overs as
+// races.
 #pragma once
 
 #include "shading/executor.h"

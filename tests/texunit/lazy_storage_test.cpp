@@ -252,7 +252,7 @@ TEST(LazyStorage, CommitsOnlyTheDistinctPagesOfAScatteredHundredthOfABc7Texture)
 }
 
 TEST(LazyStorage, CommitsAWindowOfAHugeTextureAndLittleMore) {
-    constexpr int kExtent = 16384, kWindow = 1638;   // 1 % of the area
+    constexpr int kExtent = 16384, kWindow = 1638;  // 1 % of the area
     if (sysconf(_SC_PAGESIZE) != 4096) GTEST_SKIP() << "the layout is made for 4 KiB pages, this system has " << sysconf(_SC_PAGESIZE);
     Texture texture("huge", make_hashed_pyramid(Format::RGBA8Unorm, kExtent, kExtent));
     EXPECT_EQ(committed_pages(texture), 0u);

@@ -116,7 +116,7 @@ TEST(Random, ChangesHalfOfItsBitsWhenOneInputBitChanges) {
     constexpr int kTrials = 4096;
     uint32_t RandomAddress::*const words[] = {&RandomAddress::x, &RandomAddress::y, &RandomAddress::sample, &RandomAddress::surface,
                                               &RandomAddress::seed};
-    for (uint32_t RandomAddress::* const word : words) {
+    for (uint32_t RandomAddress::*const word : words) {
         for (int in = 0; in < 32; ++in) {
             int flips[32] = {};
             for (int n = 0; n < kTrials; ++n) {

@@ -11,7 +11,7 @@ using namespace rawtexel::texunit;
 
 int main() {
     std::vector<std::byte> texels(2 * 2 * 4, std::byte{255});
-    texels[0] = texels[12] = std::byte{0};   // red is 0 at (0,0) and (1,1), 1 elsewhere
+    texels[0] = texels[12] = std::byte{0};  // red is 0 at (0,0) and (1,1), 1 elsewhere
     Texture texture("checker", make_memory_source(Format::RGBA8Unorm, 2, 2, std::move(texels)));
     auto at = std::make_unique<WaveCoordinates>();
     for (int i = 0; i < kWaveLanes; ++i) at->u[i] = at->v[i] = 0.5f;
