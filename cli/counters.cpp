@@ -59,7 +59,6 @@ constexpr std::array kCounters{
     CounterInfo{"texture.cache.conflict", "the other first-level misses"},
     CounterInfo{"texture.performed.blocks_decoded", "4x4 blocks read from files or generators"},
     CounterInfo{"texture.performed.blocks_decoded_mips", "4x4 blocks of levels made from finer ones"},
-    CounterInfo{"texture.performed.lookups_skipped", "lookups that no shading needed"},
     CounterInfo{"textures[].blocks_total", "4x4 blocks of all levels of one texture; the keys of texture follow"},
     CounterInfo{"textures[].per_level[]", "of each level its number, width and height; texels_requested and the keys after it follow"},
 };

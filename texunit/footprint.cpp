@@ -25,6 +25,13 @@ void measure(const LevelTable& table, const SamplerState& sampler, const WaveCoo
     }
     out.lod = choice.lod, out.finer = choice.finer, out.coarser = choice.coarser;
     out.fraction = choice.fraction, out.magnify = choice.magnify;
+    if (sampler.ellipse > 0) {
+        SamplerState probing = sampler;
+        probing.probes = kMostProbes;
+        ProbeChoice line;
+        select_footprint(table, probing, at, choice, line);
+        out.anisotropy = line.anisotropy;
+    }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -7,7 +7,7 @@ namespace rawtexel::texunit {
 
 struct WaveFootprint {
     WaveFloat lod;             ///< lambda after bias and bounds, clamped to the levels there are
-    WaveFloat anisotropy;      ///< eta: ratio of the ellipse's axes, at most SamplerState::probes; 1 where that is 1
+    WaveFloat anisotropy;      ///< eta: ratio of the axes, at most SamplerState::probes; of SamplerState::ellipse at most 64
     WaveInt finer, coarser;    ///< levels read; coarser = finer where one is
     WaveFloat fraction;        ///< share of the coarser level
     WaveMask magnify = 0;      ///< lanes that use the magnification kernel
@@ -15,7 +15,8 @@ struct WaveFootprint {
     WaveFloat axis_u, axis_v;  ///< the probes' line (texunit/probe_table.h), 0 for a single probe
 };
 
-/// The same bits as sample_wave's own decisions. Kernels, wraps other than ClampToBorder, and `ellipse` have no say.
+/// The same bits as sample_wave's own decisions, but of `ellipse`, which has a level of its own. Kernels and wraps other than
+/// ClampToBorder have no say.
 void measure_footprint(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at, WaveFootprint& out);
 
 /// Gives every lane the coarse derivatives of its 2x2 quad, as GPUs form them (Vulkan "Derivative Operations", DPdxCoarse and DPdyCoarse):

@@ -20,7 +20,7 @@ struct TracedTap {
 
 struct LookupTrace {
     float lod = 0;                  ///< lambda clamped to the levels there are
-    float anisotropy = 1;           ///< ratio of the footprint's axes, at most the sampler's probes
+    float anisotropy = 1;           ///< ratio of the footprint's axes, at most the sampler's probes; of an ellipse at most 64
     std::vector<TracedTap> taps;    ///< the finer level before the coarser; in a level by probe, slice, row and column
     std::array<float, 4> result{};  ///< linear RGBA: bit-equal to what the wave functions of texunit/sample.h return
 };

@@ -63,7 +63,7 @@ TEST(Fetches, GrowWithTheModel) {
     const TemporaryFolder folder;
     std::vector<uint64_t> lookups;
     for (const char* model : {"visible", "forward", "quad"}) {
-        const Words words = render_words("foliage", folder / "a.png", {"--count", "--fetch-model", model});
+        const Words words = render_words("foliage", folder / "a.png", {"--count", "--shadows", "off", "--fetch-model", model});
         lookups.push_back(stats_of(words, folder)["texture"]["lookups"].get<uint64_t>());
     }
     EXPECT_LT(lookups[0], lookups[1]);

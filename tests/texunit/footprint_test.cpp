@@ -245,6 +245,17 @@ TEST_P(Footprints, ObeyBiasBoundsAndQuantisation) {
     EXPECT_EQ(lod({.precision = Precision::Gpu}, 1.001).magnify, kWaveFull) << "lambda below half a step is 0";
 }
 
+TEST_P(Footprints, OfTheEllipticalFilterHaveTheirOwnRatio) {
+    const LevelTable table = make_levels(1024, 1024);
+    for (const double ratio : {1.0, 7.5, 64.0, 200.0}) {
+        WaveFootprint found;
+        measure_footprint(table, {.ellipse = 0.2f, .lod_rule = LodRule::Exact}, gather({ellipse_lookup(table, 2 * ratio, 2, 0.3, 1.1)}, 0),
+                          found);
+        EXPECT_NEAR(found.anisotropy[0], std::min(ratio, 64.0), 1e-4 * ratio);
+        EXPECT_EQ(found.probes[0], 1);
+    }
+}
+
 TEST_P(Footprints, ByVarianceGiveProbesAndLevelTheWholeVariance) {
     const LevelTable table = make_levels(4096, 4096);
     std::mt19937 random(8);
