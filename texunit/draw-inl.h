@@ -113,25 +113,24 @@ HWY_INLINE void draw_texels(const LevelTable& table, const SamplerState& sampler
 }
 
 HWY_INLINE void take_lanes(const TexelDraw& from, WaveMask lanes, TexelDraw& to) {
+    to.border = (to.border & ~lanes) | (from.border & lanes);
     for (; lanes != 0; lanes &= lanes - 1) {
         const auto lane = int(hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes));
         to.x[lane] = from.x[lane], to.y[lane] = from.y[lane];
-        to.border = (to.border & ~(1u << lane)) | (from.border & 1u << lane);
     }
 }
 
-/// The kernel of magnified lanes, that of the others, or both.
-HWY_INLINE void draw_by_kernel(const LevelTable& table, const SamplerState& sampler, const LevelChoice& choice, WaveMask mask,
-                               const WavePosition& at, const DrawNumbers& numbers, TexelDraw& draw) {
+/// Calls draw(kernel, result) with the kernel of the magnified lanes, that of the others, or both; take(other result, lanes) then mixes.
+template <class Result, class Draw, class Take>
+HWY_INLINE void draw_by_kernel(const SamplerState& sampler, const LevelChoice& choice, WaveMask mask, Result& result, const Draw& draw,
+                               const Take& take) {
     const WaveMask magnified = choice.magnify & mask;
-    const auto nearest_of = [](const Kernel& kernel) { return kernel.kind == KernelKind::Nearest ? kWaveFull : WaveMask{0}; };
-    const Kernel& first = sampler.magnify == sampler.minify || magnified == mask ? sampler.magnify : sampler.minify;
-    draw_texels(table, sampler, first, nearest_of(first), at, numbers, draw);
-    if (first == sampler.magnify || magnified == 0) return;
-    TexelDraw large;
-    large.level = draw.level;
-    draw_texels(table, sampler, sampler.magnify, nearest_of(sampler.magnify), at, numbers, large);
-    take_lanes(large, magnified, draw);
+    if (sampler.magnify == sampler.minify || magnified == mask) return draw(sampler.magnify, result);
+    draw(sampler.minify, result);
+    if (magnified == 0) return;
+    Result large = result;
+    draw(sampler.magnify, large);
+    take(large, magnified);
 }
 
 /// Moves the coordinates to the probe that each lane draws.
@@ -156,24 +155,136 @@ HWY_NOINLINE inline void move_to_probes(const SamplerState& sampler, const Probe
     }
 }
 
-/// All lanes of `at` are active or repeat one that is.
-HWY_NOINLINE inline void draw_lanes(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask,
-                                    const DrawNumbers& numbers, TexelDraw& draw) {
+/// Where and in which level each lane draws its texel.
+struct DrawnPlace {
     LevelChoice choice;
     WaveFloat u, v;
-    WavePosition position{&at.u, &at.v};
+    WavePosition position;
+    WaveInt level;
+};
+
+/// All lanes of `at` are active or repeat one that is.
+HWY_NOINLINE inline void draw_place(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at,
+                                    const DrawNumbers& numbers, DrawnPlace& place) {
+    place.position = {&at.u, &at.v};
     if (sampler.probes != 1) {
         ProbeChoice probes;
-        select_footprint(table, sampler, at, choice, probes);
+        select_footprint(table, sampler, at, place.choice, probes);
         if (probes.most > 1) {
-            move_to_probes(sampler, probes, at, numbers.probe, u, v);
-            position = {&u, &v};
+            move_to_probes(sampler, probes, at, numbers.probe, place.u, place.v);
+            place.position = {&place.u, &place.v};
         }
     } else {
-        choose_levels(table, sampler, at, choice, nullptr);
+        choose_levels(table, sampler, at, place.choice, nullptr);
     }
-    draw_levels(choice, numbers.level, draw.level);
-    draw_by_kernel(table, sampler, choice, mask, position, numbers, draw);
+    draw_levels(place.choice, numbers.level, place.level);
+}
+
+HWY_NOINLINE inline void draw_lanes(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask,
+                                    const DrawNumbers& numbers, TexelDraw& drawn) {
+    DrawnPlace place;
+    draw_place(table, sampler, at, numbers, place);
+    drawn.level = place.level;
+    const auto draw = [&](const Kernel& kernel, TexelDraw& texels) HWY_ATTR {
+        const WaveMask nearest = kernel.kind == KernelKind::Nearest ? kWaveFull : 0;
+        draw_texels(table, sampler, kernel, nearest, place.position, numbers, texels);
+    };
+    draw_by_kernel(sampler, place.choice, mask, drawn, draw,
+                   [&](const TexelDraw& large, WaveMask lanes) HWY_ATTR { take_lanes(large, lanes, drawn); });
+}
+
+/// Sums of an axis's positive weights and of its negative ones' magnitudes.
+struct SignedSums {
+    WaveFloat positive, negative;
+};
+
+HWY_INLINE void sum_signs(const AxisTaps& taps, SignedSums& sums) {
+    const FloatTag d;
+    const auto zero = hn::Zero(d);
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        auto positive = zero, negative = zero;
+        for (int k = 0; k < taps.count; ++k) {
+            const auto weight = hn::Load(d, taps.weight[k].lane + i);
+            positive = hn::Add(positive, hn::Max(weight, zero));
+            negative = hn::Add(negative, hn::Max(hn::Neg(weight), zero));
+        }
+        hn::Store(positive, d, sums.positive.lane + i);
+        hn::Store(negative, d, sums.negative.lane + i);
+    }
+}
+
+/// The taps of one sign a lane, as weights that are not negative and sum to 1: what draw_of_axis takes.
+HWY_INLINE void keep_sign(const AxisTaps& taps, const SignedSums& sums, WaveMask negative, AxisTaps& kept) {
+    const FloatTag d;
+    kept.count = taps.count;
+    kept.leaves = taps.leaves;
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        const auto flips = lanes_of(d, negative, i);
+        const auto sum = hn::IfThenElse(flips, hn::Load(d, sums.negative.lane + i), hn::Load(d, sums.positive.lane + i));
+        for (int k = 0; k < taps.count; ++k) {
+            const auto weight = hn::Load(d, taps.weight[k].lane + i);
+            const auto magnitude = hn::Max(hn::IfThenElse(flips, hn::Neg(weight), weight), hn::Zero(d));
+            hn::Store(hn::IfThenElseZero(sum > hn::Zero(d), hn::Div(magnitude, sum)), d, kept.weight[k].lane + i);
+            hn::Store(hn::Load(IntTag(), taps.texel[k].lane + i), IntTag(), kept.texel[k].lane + i);
+        }
+    }
+    std::copy_n(taps.outside, taps.count, kept.outside);
+}
+
+/// Draws from weights whose signs are equal on both axes (`mixed` false: ++ or --) or not (+- or -+), and tells their sum.
+HWY_INLINE void draw_signs(const AxisTaps& x, const AxisTaps& y, const SignedSums& sums_x, const SignedSums& sums_y, bool mixed,
+                           const DrawNumbers& numbers, TexelDraw& draw, WaveFloat& total) {
+    const FloatTag d;
+    WaveMask negative_x = 0, negative_y = 0;
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        const auto px = hn::Load(d, sums_x.positive.lane + i), nx = hn::Load(d, sums_x.negative.lane + i);
+        const auto py = hn::Load(d, sums_y.positive.lane + i), ny = hn::Load(d, sums_y.negative.lane + i);
+        const auto first = hn::Mul(px, mixed ? ny : py), second = hn::Mul(nx, mixed ? py : ny);
+        const auto sum = hn::Add(first, second);
+        hn::Store(sum, d, total.lane + i);
+        // Rounding may take the product up to the sum, and must not take a pair that weighs nothing.
+        const auto takes_second = hn::And(hn::Mul(hn::Load(d, numbers.sign.lane + i), sum) >= first, second > hn::Zero(d));
+        const WaveMask lanes = wave_mask(d, takes_second, i);
+        const WaveMask all = wave_mask(d, hn::Eq(sum, sum), i);
+        negative_x |= lanes;
+        negative_y |= mixed ? all & ~lanes : lanes;
+    }
+    AxisTaps kept;
+    keep_sign(x, sums_x, negative_x, kept);
+    draw.border = draw_of_axis(kept, numbers.x, draw.x);
+    keep_sign(y, sums_y, negative_y, kept);
+    draw.border |= draw_of_axis(kept, numbers.y, draw.y);
+}
+
+HWY_NOINLINE inline void draw_signed_texels(const LevelTable& table, const SamplerState& sampler, const Kernel& kernel,
+                                            const WavePosition& at, const DrawNumbers& positive, const DrawNumbers& negative,
+                                            SignedDraw& draw) {
+    AxisTaps x, y;
+    select_wide_axis(kernel, edge_rule(sampler.wrap_s), *at.u, table.width, draw.positive.level, {sampler.precision, nullptr}, x);
+    select_wide_axis(kernel, edge_rule(sampler.wrap_t), *at.v, table.height, draw.positive.level, {sampler.precision, nullptr}, y);
+    SignedSums sums_x, sums_y;
+    sum_signs(x, sums_x);
+    sum_signs(y, sums_y);
+    draw_signs(x, y, sums_x, sums_y, false, positive, draw.positive, draw.positive_weight);
+    draw_signs(x, y, sums_x, sums_y, true, negative, draw.negative, draw.negative_weight);
+}
+
+HWY_NOINLINE inline void draw_signed_lanes(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask,
+                                           const DrawNumbers& positive, const DrawNumbers& negative, SignedDraw& drawn) {
+    DrawnPlace place;
+    draw_place(table, sampler, at, positive, place);
+    drawn.positive.level = drawn.negative.level = place.level;
+    const auto draw = [&](const Kernel& kernel, SignedDraw& texels)
+                          HWY_ATTR { draw_signed_texels(table, sampler, kernel, place.position, positive, negative, texels); };
+    draw_by_kernel(sampler, place.choice, mask, drawn, draw, [&](const SignedDraw& large, WaveMask lanes) HWY_ATTR {
+        take_lanes(large.positive, lanes, drawn.positive);
+        take_lanes(large.negative, lanes, drawn.negative);
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const auto lane = int(hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes));
+            drawn.positive_weight[lane] = large.positive_weight[lane];
+            drawn.negative_weight[lane] = large.negative_weight[lane];
+        }
+    });
 }
 
 template <StorageClass storage>

@@ -19,6 +19,10 @@ enum class Dimension : uint32_t {
     Layer = 9,
     Light = 10,
     Plane = 11,
+    NegativeX = 12,  ///< the texel that a kernel's negative weights draw
+    NegativeY = 13,
+    NegativeZ = 14,
+    NegativeSign = 15,
 };
 
 struct RandomAddress {

@@ -2,7 +2,9 @@
 #include "texunit/draw.h"
 
 #include "texunit/lookup_trace.h"
+#include "texunit/memory_source.h"
 #include "texunit/random.h"
+#include "tests/reference/texunit/kernel_reference.h"
 #include "tests/texunit/hashed_source.h"
 #include "texunit/simd.h"
 
@@ -126,6 +128,151 @@ TEST(Draw, OverAllNumbersGivesTheWeights) {
             for (int lane = 0; lane < kWaveLanes; ++lane) drawn[place_of(draw, lane)] += 1.0 / (kSteps * kSteps);
         }
         for (const auto& [place, weight] : weights) EXPECT_NEAR(drawn[place], weight, 2.0 / kSteps) << to_string(kernel);
+    }
+}
+
+const Kernel kSignedKernels[] = {Kernel::mitchell(), Kernel::CatmullRom, Kernel::Lanczos2, Kernel::Lanczos3, Kernel::mitchell(0.2f, 0.9f)};
+
+TEST(SignedDraw, PicksTexelsOfEitherSignWithTheProbabilityOfTheirWeights) {
+    constexpr uint32_t kWaves = 4000;
+    constexpr double kBound = 5.9;  // 120 deviates
+    Texture texture("hashed", make_hashed_pyramid(Format::RGBA8Unorm, 48, 20));
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    double worst = 0;
+    uint32_t cases = 0;
+    for (const Kernel& kernel : kSignedKernels) {
+        for (const Wrap wrap : {Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge, Wrap::ClampToBorder}) {
+            for (const int probes : {1, 1, 5}) {
+                SamplerState sampler{.magnify = kernel, .minify = kernel, .probes = probes};
+                sampler.wrap_s = wrap, sampler.wrap_t = Wrap::Repeat;
+                const LaneCoordinates at{0.9f * unit(random),  unit(random),         0.04f * unit(random),
+                                         0.09f * unit(random), 0.01f * unit(random), 0.02f * unit(random)};
+                // Weights of one sign by place; wraps may give a texel taps of both signs.
+                std::map<Place, double> weights[2], drawn[2];
+                double sums[2] = {};
+                for (const TracedTap& tap : trace_lookup(texture, sampler, at).taps) {
+                    const int side = tap.weight < 0;
+                    weights[side][tap.border ? Place{-1, 0, 0, 0} : Place{tap.level, tap.slice, tap.x, tap.y}] += std::abs(tap.weight);
+                    sums[side] += std::abs(tap.weight);
+                }
+                // Levels and probes are drawn first, and weigh either sign by their own sums: the expectation is what the weights say.
+                SignedDraw draw;
+                double found[2] = {};
+                for (uint32_t n = 0; n < kWaves; ++n) {
+                    DrawNumbers positive, negative;
+                    draw_numbers({.x = 0, .y = 0, .sample = cases * kWaves + n}, positive);
+                    negative_draw_numbers({.x = 0, .y = 0, .sample = cases * kWaves + n}, negative);
+                    draw_signed_wave(texture, sampler, everywhere(at), kWaveFull, positive, negative, draw);
+                    for (int lane = 0; lane < kWaveLanes; ++lane) {
+                        EXPECT_NEAR(draw.positive_weight[lane] - draw.negative_weight[lane], 1, 2e-6);
+                        drawn[0][place_of(draw.positive, lane)] += double(draw.positive_weight[lane]);
+                        if (draw.negative_weight[lane] > 0) drawn[1][place_of(draw.negative, lane)] += double(draw.negative_weight[lane]);
+                        found[0] += double(draw.positive_weight[lane]), found[1] += double(draw.negative_weight[lane]);
+                    }
+                }
+                constexpr double kDraws = double(kWaves) * kWaveLanes;
+                for (int side = 0; side < 2; ++side) {
+                    EXPECT_NEAR(found[side] / kDraws, sums[side], 0.02) << to_string(kernel);
+                    for (auto& [place, weight] : weights[side]) weight /= sums[side];
+                    for (auto& [place, weight] : drawn[side]) weight *= kDraws / found[side];
+                    const double deviate = chi_square_deviate(weights[side], drawn[side], kDraws);
+                    // Draws of several levels or probes differ in weight, which widens the statistic.
+                    EXPECT_LT(deviate, probes == 1 ? kBound : 3 * kBound)
+                        << to_string(kernel) << " wrap " << int(wrap) << " probes " << probes;
+                    worst = std::max(worst, probes == 1 ? deviate : 0.0);
+                }
+                ++cases;
+            }
+        }
+    }
+    std::printf("%u cases, largest deviate %.2f\n", cases, worst);
+}
+
+/// Expected variance of one lookup over uniform texels and phases: each sign draws a texel of variance 1/12, less what the draw is sure of.
+double variance_over_phases(const Kernel& kernel) {
+    constexpr int kPhases = 256;
+    double sum = 0;
+    for (int i = 0; i < kPhases * kPhases; ++i) {
+        const auto x = reference::kernel_taps(kernel, 20 + (i % kPhases + 0.5) / kPhases);
+        const auto y = reference::kernel_taps(kernel, 30 + (i / kPhases + 0.5) / kPhases);
+        double total[2] = {}, squares[2] = {};
+        for (const reference::KernelTap& column : x) {
+            for (const reference::KernelTap& row : y) {
+                const double weight = column.weight * row.weight;
+                total[weight < 0] += std::abs(weight);
+                squares[weight < 0] += weight * weight;
+            }
+        }
+        for (int side = 0; side < 2; ++side) sum += (total[side] * total[side] - squares[side]) / 12;
+    }
+    return sum / (kPhases * kPhases);
+}
+
+TEST(SignedDraw, HasTheVarianceOfPositivization) {
+    // By quadrature over phases; published to three digits: Wyman et al. 2024 and independent integrals.
+    const std::pair<Kernel, double> known[] = {{Kernel::Bilinear, 5.0 / 108}, {Kernel::BSpline, 0.0642},  {Kernel::mitchell(), 0.0578},
+                                               {Kernel::CatmullRom, 0.0642},  {Kernel::Lanczos2, 0.0665}, {Kernel::Lanczos3, 0.1213}};
+    constexpr uint32_t kWaves = 16000;
+    Texture texture("hashed", make_hashed_pyramid(Format::R16Unorm, 2048, 2048));
+    for (const auto& [kernel, expected] : known) {
+        EXPECT_NEAR(variance_over_phases(kernel), expected, 0.002 * expected) << to_string(kernel);
+        const SamplerState sampler{.magnify = kernel, .minify = kernel, .mip = MipMode::None};
+        double squares = 0;
+        for (uint32_t n = 0; n < kWaves; ++n) {
+            WaveCoordinates at{};
+            for (uint32_t lane = 0; lane < kWaveLanes; ++lane) {
+                at.u[int(lane)] = random_float({.x = lane, .y = 100, .sample = n});
+                at.v[int(lane)] = random_float({.x = lane, .y = 101, .sample = n});
+            }
+            WaveFloat value[2];
+            for (uint32_t twin = 0; twin < 2; ++twin) {
+                DrawNumbers positive, negative;
+                draw_numbers({.x = 0, .y = 4 * twin, .sample = n}, positive);
+                negative_draw_numbers({.x = 0, .y = 4 * twin, .sample = n}, negative);
+                SignedDraw draw;
+                WaveColor above, below;
+                draw_signed_wave(texture, sampler, at, kWaveFull, positive, negative, draw);
+                read_drawn_wave(texture, sampler, draw.positive, above);
+                read_drawn_wave(texture, sampler, draw.negative, below);
+                for (int lane = 0; lane < kWaveLanes; ++lane) {
+                    value[twin][lane] =
+                        draw.positive_weight[lane] * above.channel[0][lane] - draw.negative_weight[lane] * below.channel[0][lane];
+                }
+            }
+            for (int lane = 0; lane < kWaveLanes; ++lane) squares += std::pow(double(value[0][lane] - value[1][lane]), 2) / 2;
+        }
+        const double found = squares / (double(kWaves) * kWaveLanes);
+        std::printf("%s: variance %.4f, expected %.4f\n", to_string(kernel).c_str(), found, expected);
+        EXPECT_NEAR(found, expected, 0.01 * expected) << to_string(kernel);
+    }
+}
+
+TEST(SignedDraw, LeavesAConstantAsItIs) {
+    Texture texture("constant", make_memory_source(Format::RGBA8Unorm, 40, 24, std::vector<std::byte>(40 * 24 * 4, std::byte{77})));
+    const std::array<float, 4> expected = texture.texel(0, 0, 0, 0);
+    std::mt19937 random(6);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    for (const Kernel& kernel : kSignedKernels) {
+        const SamplerState sampler{.magnify = kernel, .minify = kernel};
+        WaveCoordinates at;
+        for (int lane = 0; lane < kWaveLanes; ++lane) {
+            at.u[lane] = unit(random), at.v[lane] = unit(random);
+            at.dudx[lane] = 0.1f * unit(random), at.dvdx[lane] = at.dudy[lane] = 0, at.dvdy[lane] = 0.05f;
+        }
+        DrawNumbers positive, negative;
+        draw_numbers({.sample = 1}, positive);
+        negative_draw_numbers({.sample = 1}, negative);
+        SignedDraw draw;
+        WaveColor above, below;
+        draw_signed_wave(texture, sampler, at, kWaveFull, positive, negative, draw);
+        read_drawn_wave(texture, sampler, draw.positive, above);
+        read_drawn_wave(texture, sampler, draw.negative, below);
+        for (int lane = 0; lane < kWaveLanes; ++lane) {
+            const double value = double(draw.positive_weight[lane]) * double(above.channel[0][lane]) -
+                                 double(draw.negative_weight[lane]) * double(below.channel[0][lane]);
+            EXPECT_NEAR(value, double(expected[0]), 4e-6) << to_string(kernel);
+        }
     }
 }
 
