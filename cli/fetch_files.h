@@ -14,7 +14,7 @@ namespace rawtexel::cli {
 void write_counts(const std::string& path, const shading::RenderResult& frame, const scenes::Placement& placement,
                   const scenes::Metadata& metadata);
 
-/// A trace on its way to disk (docs/trace.md).
+/// A trace on its way to disk (docs/fetches.md).
 class TraceFile {
   public:
     explicit TraceFile(const std::string& path);

@@ -18,12 +18,13 @@ void declare_fetch_options(CommandLine& line, FetchRequest& fetches) {
     line.option(
         "--fetch-model", "visible|forward|quad",
         "whose fetches count: of what is seen (the default), of all that passes a depth test in scene order, or that in 2x2 quads with "
-        "their helper lanes as GPUs have",
+        "their helper lanes as GPUs have; implies --count",
         [&](const std::string& text) {
             fetches.model = parse_choice("--fetch-model", text, {FetchModel::Visible, FetchModel::Forward, FetchModel::Quad});
         });
     line.option("--cache", "SPEC",
-                "run the fetches through a modelled cache, too: any of line=BYTES,sectors=N,l1=BYTES:WAYS,l2=BYTES:WAYS,cores=N,"
+                "run the fetches through a modelled cache, too, which implies --count: any of "
+                "line=BYTES,sectors=N,l1=BYTES:WAYS,l2=BYTES:WAYS,cores=N,"
                 "holds=decoded|stored[:decoded|stored] (default " +
                     to_string(texunit::CacheSpec{}) + ")",
                 [&](const std::string& text) { fetches.cache = parse_cache(text); });

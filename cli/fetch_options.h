@@ -11,10 +11,10 @@ namespace rawtexel::cli {
 
 struct FetchRequest {
     bool count = false;
-    shading::FetchModel model = shading::FetchModel::Visible;
+    std::optional<shading::FetchModel> model;  ///< unset: visible
     std::optional<texunit::CacheSpec> cache;
 
-    bool counts() const { return count || cache; }
+    bool counts() const { return count || model || cache; }
 };
 
 void declare_fetch_options(CommandLine& line, FetchRequest& fetches);

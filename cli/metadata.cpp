@@ -30,7 +30,7 @@ scenes::Metadata image_metadata(const RunRecord& record, bool has_display_transf
     }
     if (record.result.fetches) {
         const texunit::FetchCounts fetches = record.result.fetches->total();
-        metadata.emplace_back("rawtexel:fetch-model", std::string(to_string(request.fetches.model)));
+        metadata.emplace_back("rawtexel:fetch-model", std::string(to_string(request.fetches.model.value_or(shading::FetchModel::Visible))));
         if (request.fetches.cache) metadata.emplace_back("rawtexel:cache", to_string(*request.fetches.cache));
         metadata.emplace_back("rawtexel:lookups", std::to_string(fetches.lookups));
         metadata.emplace_back("rawtexel:taps", std::to_string(fetches.taps));

@@ -138,6 +138,13 @@ Json texture_list(const std::optional<FetchNumbers>& fetches, const shading::Tex
     return list;
 }
 
+/// Which fragments' fetches were counted, and by which cache.
+Json counting_choices(const FetchRequest& request) {
+    Json json{{"model", to_string(request.model.value_or(shading::FetchModel::Visible))}};
+    if (request.cache) json["cache"] = to_string(*request.cache);
+    return json;
+}
+
 }  // namespace
 
 void add_texture_stats(const RunRecord& record, const shading::Scene& scene, Json& json) {
@@ -145,6 +152,7 @@ void add_texture_stats(const RunRecord& record, const shading::Scene& scene, Jso
     const std::vector<texunit::TextureWork> work = work_of(record, set);
     std::optional<FetchNumbers> fetches;
     if (record.result.fetches) fetches.emplace(*record.result.fetches, record.result.samples_shaded);
+    if (fetches) json["fetches"] = counting_choices(record.request.fetches);
     json["texture"] = texture_totals(fetches, work);
     json["textures"] = texture_list(fetches, set, work);
 }

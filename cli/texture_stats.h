@@ -7,7 +7,8 @@
 
 namespace rawtexel::cli {
 
-/// The objects `texture` and `textures` of the statistics: sums, and the distinct textures with their levels. Added to `json`.
+/// The objects `fetches`, `texture` and `textures` of the statistics: what was counted, sums, and the distinct textures with their levels.
+/// Added to `json`.
 void add_texture_stats(const RunRecord& record, const shading::Scene& scene, nlohmann::ordered_json& json);
 
 }  // namespace rawtexel::cli

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <bit>
 #include <span>
+#include <vector>
 
 HWY_BEFORE_NAMESPACE();
 namespace rawtexel::shading {
@@ -24,6 +25,11 @@ namespace HWY_NAMESPACE {
 constexpr WaveMask whole_quads(WaveMask mask) {
     const WaveMask pairs = mask | (mask & 0x55555555u) << 1 | (mask & 0xAAAAAAAAu) >> 1;
     return pairs | (pairs & 0x00FF00FFu) << 8 | (pairs & 0xFF00FF00u) >> 8;
+}
+
+/// The pixels of all 2x2 quads that touch `rect`, within the frame.
+inline PixelRect whole_quads(const PixelRect& rect, const raster::FrameOptions& frame) {
+    return {rect.x0 & ~1, rect.y0 & ~1, std::min((rect.x1 + 1) & ~1, frame.width), std::min((rect.y1 + 1) & ~1, frame.height)};
 }
 
 /// Fragments of one draw that ask together.
@@ -78,20 +84,15 @@ class DemandedLookups {
         size_t index;
     };
 
-    /// Waves with pixels to count, in Morton order.
+    /// Waves with pixels to count, in Morton order: bits of column and row alternate, column first. A tile has twice as many rows of waves
+    /// as columns, so the code's top bit is the row's.
     void list_waves() {
-        const int waves_x = tile_size_ / texunit::kWaveWidth, waves = tile_size_ * tile_size_ / texunit::kWaveLanes;
-        // Bits of column and row alternate, column first; a tile has twice as many rows as columns, whose last bit stands on top.
-        for (int code = 0; code < waves; ++code) {
-            int column = 0, row = 0;
-            for (int bit = 0; bit < 6; ++bit) {
+        const int waves_x = tile_size_ / texunit::kWaveWidth, squares = waves_x * waves_x;
+        for (int code = 0; code < 2 * squares; ++code) {
+            int column = 0, row = code / squares * waves_x;
+            for (int bit = 0; 1 << bit < waves_x; ++bit) {
                 column |= (code >> (2 * bit) & 1) << bit;
                 row |= (code >> (2 * bit + 1) & 1) << bit;
-            }
-            // For the code's top bit the alternation would give the column one bit too many.
-            if (column >= waves_x) {
-                column -= waves_x;
-                row |= waves_x;
             }
             const WavePlace place{column * texunit::kWaveWidth, row * texunit::kWaveHeight, size_t(row * waves_x + column)};
             if (lanes_inside(inputs_.visible, tile_x_ + place.x, tile_y_ + place.y) != 0) waves_.push_back(place);
@@ -171,7 +172,7 @@ class DemandedLookups {
         asking_.base_color = candidate.lanes;
         asking_.others = candidate.covered;
         if (inputs_.fetch_model == FetchModel::Quad) {
-            // Quads end where the frame or the crop does, so that every lookup belongs to a pixel.
+            // A lookup belongs to a pixel, so only those inside are told.
             const WaveMask inside = lanes_inside(inputs_.visible, wave_.x, wave_.y);
             asking_.base_color = whole_quads(candidate.lanes) & inside;
             asking_.others = whole_quads(candidate.covered) & inside;

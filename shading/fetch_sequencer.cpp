@@ -11,18 +11,16 @@ int64_t FetchSequencer::next_tile() {
 
 void FetchSequencer::hand_in(int64_t tile, texunit::FetchStream& stream) {
     std::unique_lock lock(mutex_);
-    Tile& own = tiles_[tile];
-    // The tile that is due was begun before all that wait, so it goes on.
-    if (tile != due_ && own.bytes + stream.bytes() > kMostWaitingBytes) {
-        due_changed_.wait(lock, [&] { return due_ == tile || abandoned_; });
-    }
+    // The tile that is due was begun before all that wait, so it goes on, and those that wait become due or find room.
+    const size_t bytes = stream.bytes();
+    due_changed_.wait(lock, [&] { return tile == due_ || waiting_bytes_ + bytes <= kMostWaitingBytes || abandoned_; });
     if (abandoned_) return stream.clear();
     if (tile == due_) {
         consume_(tile, stream);
         return stream.clear();
     }
-    own.bytes += stream.bytes();
-    own.waiting.push_back(std::exchange(stream, {}));
+    waiting_bytes_ += bytes;
+    tiles_[tile].waiting.push_back(std::exchange(stream, {}));
 }
 
 void FetchSequencer::finish(int64_t tile) {
@@ -42,9 +40,11 @@ void FetchSequencer::consume_due() {
     for (bool finished = true; finished;) {
         tiles_.erase(due_++);
         Tile& tile = tiles_[due_];
-        for (const texunit::FetchStream& stream : tile.waiting) consume_(due_, stream);
+        for (const texunit::FetchStream& stream : tile.waiting) {
+            waiting_bytes_ -= stream.bytes();
+            consume_(due_, stream);
+        }
         tile.waiting.clear();
-        tile.bytes = 0;
         finished = tile.finished;
     }
     due_changed_.notify_all();

@@ -14,7 +14,7 @@
 namespace rawtexel::shading {
 
 /// Tiles are numbered from 0 and must be begun in that order (FetchSequencer::next_tile), by however many threads. What the tile that is
-/// due hands in goes on at once; other tiles' streams wait, in memory up to a limit and beyond it with their threads.
+/// due hands in goes on at once; other tiles' streams wait: all of them together in memory up to a limit, and beyond it with their threads.
 class FetchSequencer {
   public:
     /// Called for one stream at a time, in the order of tiles and within a tile in the order handed in.
@@ -30,11 +30,10 @@ class FetchSequencer {
     void abandon();
 
   private:
-    static constexpr size_t kMostWaitingBytes = size_t{32} << 20;  ///< of one tile
+    static constexpr size_t kMostWaitingBytes = size_t{128} << 20;
 
     struct Tile {
         std::vector<texunit::FetchStream> waiting;
-        size_t bytes = 0;
         bool finished = false;
     };
     void consume_due();
@@ -43,6 +42,7 @@ class FetchSequencer {
     std::mutex mutex_;
     std::condition_variable due_changed_;
     std::map<int64_t, Tile> tiles_;
+    size_t waiting_bytes_ = 0;
     int64_t next_ = 0, due_ = 0;
     bool abandoned_ = false;
 };

@@ -4,50 +4,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 
 namespace rawtexel::shading {
 namespace {
 
 constexpr int kLineBytes = 64;
 
-/// splitmix64's mixing of bits.
-uint64_t hash(uint64_t key) {
-    key = (key ^ key >> 30) * 0xBF58476D1CE4E5B9u;
-    key = (key ^ key >> 27) * 0x94D049BB133111EBu;
-    return key ^ key >> 31;
-}
-
 }  // namespace
-
-void PixelLines::clear() {
-    std::fill(slots_.begin(), slots_.end(), 0);
-    used_ = 0;
-}
-
-bool PixelLines::add(uint32_t pixel, uint32_t texture, uint32_t line) {
-    assert(pixel < 1u << 14 && texture < 1u << 20 && line < 1u << 27);
-    const uint64_t key = (uint64_t{pixel} << 47 | uint64_t{texture} << 27 | line) + 1;
-    const size_t mask = slots_.size() - 1;
-    size_t slot = hash(key) & mask;
-    for (; slots_[slot] != 0; slot = (slot + 1) & mask) {
-        if (slots_[slot] == key) return false;
-    }
-    slots_[slot] = key;
-    if (2 * ++used_ > slots_.size()) grow();
-    return true;
-}
-
-void PixelLines::grow() {
-    std::vector<uint64_t> larger(2 * slots_.size());
-    for (const uint64_t key : slots_) {
-        if (key == 0) continue;
-        size_t slot = hash(key) & (larger.size() - 1);
-        while (larger[slot] != 0) slot = (slot + 1) & (larger.size() - 1);
-        larger[slot] = key;
-    }
-    slots_ = std::move(larger);
-}
 
 FetchTally::FetchTally(const TextureSet& set, const FetchOptions& options, const PixelRect& visible, int tile_size,
                        std::vector<Image>& pixels, HandIn hand_in)
@@ -80,21 +43,22 @@ void FetchTally::lookup(const ListenedLookup& lookup) {
     counter.counts = &counts_[place];
     counter.touched = touched_.bits(place);
     counter.pixel = sums_pixels() ? &wave_texels_ : nullptr;
-    count_wave(*lookup.map->texture, lookup.map->sampler, *lookup.at, lookup.lanes, counter);
+    texunit::WaveFloat lod;
+    count_wave(*lookup.map->texture, lookup.map->sampler, *lookup.at, lookup.lanes, counter, options_.pixel_layers ? &lod : nullptr);
     if (records()) {
         recorder_.set_texture(place);
         record_wave(*lookup.map->texture, lookup.map->sampler, *lookup.at, lookup.lanes, recorder_);
     }
-    if (options_.pixel_layers) measure(lookup);
+    if (options_.pixel_layers) measure(lookup, lod);
 }
 
-void FetchTally::measure(const ListenedLookup& lookup) {
+void FetchTally::measure(const ListenedLookup& lookup, const texunit::WaveFloat& lod) {
     texunit::WaveFootprint footprint;
     measure_footprint(lookup.map->texture->levels(), lookup.map->sampler, *lookup.at, footprint);
     for (texunit::WaveMask rest = lookup.lanes; rest != 0; rest &= rest - 1) {
         const int lane = std::countr_zero(rest);
         PixelSums& sums = sums_[pixel(lane)];
-        sums.level += double(footprint.lod[lane]);
+        sums.level += double(lod[lane]);
         sums.anisotropy += double(footprint.anisotropy[lane]);
         ++sums.lookups;
     }

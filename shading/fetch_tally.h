@@ -4,6 +4,7 @@
 #include "shading/fetch_options.h"
 #include "shading/frame_fetches.h"
 #include "shading/lookup_listener.h"
+#include "shading/pixel_lines.h"
 #include "shading/pixel_rect.h"
 #include "texunit/fetch_stream.h"
 
@@ -11,19 +12,6 @@
 #include <vector>
 
 namespace rawtexel::shading {
-
-/// Distinct 64-byte lines of decoded texels, pixel by pixel.
-class PixelLines {
-  public:
-    void clear();
-    /// Whether the pixel had not read this line before. `pixel` < 2^14, `line` < 2^27, `texture` < 2^20.
-    bool add(uint32_t pixel, uint32_t texture, uint32_t line);
-
-  private:
-    void grow();
-    std::vector<uint64_t> slots_ = std::vector<uint64_t>(1 << 12);  ///< open addressing; 0: free
-    size_t used_ = 0;
-};
 
 class FetchTally final : public LookupListener {
   public:
@@ -55,7 +43,7 @@ class FetchTally final : public LookupListener {
     };
     bool records() const { return options_.pixel_lines || options_.needs_order(); }
     bool sums_pixels() const { return !pixels_.empty(); }
-    void measure(const ListenedLookup& lookup);
+    void measure(const ListenedLookup& lookup, const texunit::WaveFloat& lod);
     void sum_pixels_of_wave();
     size_t pixel(int lane) const;
 

@@ -22,9 +22,9 @@ struct TextureSet {
     std::vector<uint64_t> texels() const;  ///< of each texture's storage
 };
 
-/// Layers of FrameFetches::pixels, in this order. Sums over the pixels of the frame equal the counters of the same names, but for
-/// lines_pixel (distinct 64-byte lines of the pixel alone) and the last three: mean level of detail and mean anisotropy of the pixel's
-/// lookups, and samples that saw a surface.
+/// Layers of FrameFetches::pixels, in this order, exact below 2^24. Sums over the pixels of the frame equal the counters of the same names,
+/// but for lines_pixel (distinct 64-byte lines of the pixel alone) and the last three: mean level of detail and mean anisotropy of the
+/// pixel's lookups, and samples that saw a surface.
 enum class PixelCount { TexelsRequested, LinesPixel, LinesFirst, BlocksFirst, L1Miss, L2Miss, Level, Anisotropy, Samples };
 std::string_view to_string(PixelCount count);  // texels_requested lines_pixel lines_first blocks_first l1_miss l2_miss level …
 inline constexpr int kPixelCounts = int(PixelCount::Samples) + 1;

@@ -74,11 +74,11 @@ TileTotals render_tiles(const TileInputs& inputs, FetchAccount* account, const R
             const int64_t tile = account->begin_tile(index);
             try {
                 render_one(tile, *worker);
+                account->end_tile(tile);
             } catch (...) {
                 account->abandon();
                 throw;
             }
-            account->end_tile(tile);
         }
         if (progress) progress(double(++done) / double(tiles.count()));
     });

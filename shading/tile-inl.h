@@ -46,7 +46,9 @@ class TileRenderer {
           tile_y_(tile_y),
           tile_size_(frame_.options().tile_size),
           waves_x_(tile_size_ / texunit::kWaveWidth),
-          coverage_(frame_, inputs.draws, inputs.visible, inputs.seed, inputs.derivatives) {}
+          tested_(scratch.listener && inputs.fetch_model == FetchModel::Quad ? whole_quads(inputs.visible, frame_.options())
+                                                                             : inputs.visible),
+          coverage_(frame_, inputs.draws, tested_, inputs.seed, inputs.derivatives) {}
 
     void render() {
         using Clock = std::chrono::steady_clock;
@@ -132,7 +134,7 @@ class TileRenderer {
     };
 
     void log(const raster::CandidateWave& candidate, WaveMask covered) {
-        const WaveMask lanes = candidate.mask & lanes_inside(inputs_.visible, candidate.x, candidate.y);
+        const WaveMask lanes = candidate.mask & lanes_inside(tested_, candidate.x, candidate.y);
         const size_t wave = wave_at(candidate.x - tile_x_ * tile_size_, candidate.y - tile_y_ * tile_size_);
         scratch_.candidates.add(candidate, uint32_t(wave), lanes, covered & lanes);
     }
@@ -335,6 +337,7 @@ class TileRenderer {
     const raster::Frame& frame_;
     TileScratch& scratch_;
     int tile_x_, tile_y_, tile_size_, waves_x_;
+    PixelRect tested_;  ///< whose fragments are asked whether they cover
     AlphaCoverage coverage_;
     raster::SampleOffset frame_offset_;
     bool first_sample_ = false;

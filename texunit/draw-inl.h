@@ -167,7 +167,7 @@ struct DrawnPlace {
 HWY_NOINLINE inline void draw_place(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at,
                                     const DrawNumbers& numbers, DrawnPlace& place) {
     place.position = {&at.u, &at.v};
-    if (sampler.probes != 1) {
+    if (!sampler.is_isotropic()) {
         ProbeChoice probes;
         select_footprint(table, sampler, at, place.choice, probes);
         if (probes.most > 1) {

@@ -1,4 +1,4 @@
-// The canonical fetch stream as a file: zstd-compressed records, one for each texel read (docs/trace.md).
+// The canonical fetch stream as a file: zstd-compressed records, one for each texel read (docs/fetches.md).
 #pragma once
 
 #include "texunit/texel_addresses.h"

@@ -12,7 +12,7 @@ namespace HWY_NAMESPACE {
 
 void measure(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at, WaveFootprint& out) {
     LevelChoice choice;
-    if (sampler.probes > 1) {
+    if (sampler.probes > 1 || sampler.probe_variance > 0) {
         ProbeChoice probes;
         select_footprint(table, sampler, at, choice, probes);
         out.anisotropy = probes.anisotropy, out.probes = probes.count;

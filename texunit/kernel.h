@@ -14,7 +14,7 @@ enum class KernelKind : uint8_t {
     Bilinear,
     Quadratic,   ///< uniform quadratic B-spline
     BSpline,     ///< uniform cubic B-spline
-    Mitchell,    ///< Mitchell and Netravali 1988, any B and C
+    Mitchell,    ///< Mitchell and Netravali 1988, |B| and |C| up to 10
     CatmullRom,  ///< Mitchell with B = 0, C = 1/2
     Lanczos2,
     Lanczos3,       ///< both normalised along each axis

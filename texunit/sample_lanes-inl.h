@@ -58,7 +58,7 @@ HWY_NOINLINE void sample_lanes(Texture& texture, const SamplerState& sampler, co
         position.slice = &slice;
     }
     begin_lookups(texture, mask, count);
-    if (sampler.probes != 1 || sampler.ellipse > 0) {
+    if (!sampler.is_isotropic()) {
         return sample_anisotropic(texture, sampler, at, position, mask, count, out, lod);
     }
     LevelChoice choice;
@@ -107,6 +107,7 @@ HWY_NOINLINE inline void flatten_derivatives(const LevelTable& table, LodRule ru
 /// Volumes and cube maps are sampled by one isotropic probe.
 HWY_INLINE SamplerState isotropic(SamplerState sampler) {
     sampler.probes = 1;
+    sampler.probe_variance = 0;
     sampler.ellipse = 0;
     return sampler;
 }

@@ -28,7 +28,7 @@ struct SamplerState {
     Kernel minify = Kernel::Bilinear;
     MipMode mip = MipMode::Linear;
     Wrap wrap_r = Wrap::Repeat;   ///< third axis of 3-D textures
-    int probes = 1;               ///< most anisotropic probes, 1..64; 1 is isotropic
+    int probes = 1;               ///< most anisotropic probes, 1..64
     float probe_variance = 0.0f;  ///< S2 > 0: probes and level of total covariance S2*J*J^T + I/6; 0: probes by the D3D and Vulkan rule
     float ellipse = 0.0f;         ///< S2 > 0: filter by the exact ellipse of covariance S2*J*J^T + I/6 instead, over level 0
     LodRule lod_rule = LodRule::D3d;
@@ -37,6 +37,8 @@ struct SamplerState {
     float min_lod = 0.0f, max_lod = 1000.0f;  ///< levels; min_lod wins
     std::array<float, 4> border{};            ///< linear RGBA beyond the edges of ClampToBorder
 
+    /// One probe at the level that the longer axis asks for.
+    bool is_isotropic() const { return probes == 1 && probe_variance <= 0.0f && ellipse <= 0.0f; }
     bool operator==(const SamplerState&) const = default;
 };
 

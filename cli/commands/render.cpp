@@ -49,7 +49,7 @@ shading::RenderOptions frame_options(const RenderRequest& request, const shading
     options.coverage = request.tone.white_backdrop;
     options.aovs = std::move(aovs);
     options.fetches.count = request.fetches.counts();
-    options.fetches.model = request.fetches.model;
+    options.fetches.model = request.fetches.model.value_or(shading::FetchModel::Visible);
     options.fetches.cache = request.fetches.cache;
     options.tile_size = request.machine.tile_size;
     return options;
@@ -95,7 +95,7 @@ class RenderCommand : public Command {
                     [this](const std::string& text) { aovs_ = parse_aovs(text); });
         line.option("--counts", "FILE.exr", "the image with layers of counts, pixel by pixel (rawtexel list counters)",
                     [this](const std::string& text) { counts_ = text; });
-        line.option("--trace", "FILE.zst", "every texel read, one by one (docs/trace.md)",
+        line.option("--trace", "FILE.zst", "every texel read, one by one (docs/fetches.md)",
                     [this](const std::string& text) { trace_ = text; });
         line.option("--stats", "FILE", "the run's numbers as JSON", [this](const std::string& text) { stats_ = text; });
         line.option("--repeat", "N",

@@ -66,7 +66,7 @@ TEST(Stats, HasTheKeysOfTheContract) {
     const Json json = Json::parse(stats_json(sample.record, sample.scene));
     using Keys = std::set<std::string>;
     EXPECT_EQ(keys_of(json), (Keys{"rawtexel", "scene", "command", "lookup", "image", "frame_s", "time_s", "memory_bytes", "geometry",
-                                   "texture", "textures"}));
+                                   "fetches", "texture", "textures"}));
     EXPECT_EQ(keys_of(json["image"]), (Keys{"width", "height", "spp", "samples_shaded"}));
     EXPECT_EQ(keys_of(json["frame_s"]), (Keys{"min", "median", "n"}));
     EXPECT_EQ(keys_of(json["time_s"]), (Keys{"load", "geometry", "raster", "shade", "write", "total"}));

@@ -9,9 +9,12 @@
 #include <gtest/gtest.h>
 #include <zstd.h>
 
+#include <cmath>
 #include <cstring>
+#include <memory>
 #include <numeric>
 #include <set>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -21,6 +24,33 @@ namespace {
 using namespace test;
 
 double sum(const Image& image) { return std::accumulate(image.values.begin(), image.values.end(), 0.0); }
+
+/// Looks the base colour up where it is told, and keeps what it finds.
+class Relooker final : public LookupListener {
+  public:
+    explicit Relooker(int width, int height) : colors(width, height, 3) {}
+    void begin_tile(int, int) override {}
+    void begin_wave(const ListenedWave& wave) override { wave_ = wave; }
+    void fragments(const ListenedFragments& fragments) override { let_through_ = fragments.let_through; }
+    void lookup(const ListenedLookup& lookup) override {
+        if (lookup.slot != kBaseColor || let_through_) return;
+        texunit::WaveColor color;
+        sample_wave(*lookup.map->texture, lookup.map->sampler, *lookup.at, lookup.lanes, color);
+        for (int lane = 0; lane < texunit::kWaveLanes; ++lane) {
+            if ((lookup.lanes >> lane & 1) == 0) continue;
+            float* const pixel = colors.pixel(wave_.x + lane % texunit::kWaveWidth, wave_.y + lane / texunit::kWaveWidth);
+            for (int c = 0; c < 3; ++c) pixel[c] = color.channel[c][lane];
+        }
+    }
+    void end_wave() override {}
+    void end_sample() override {}
+    void end_tile() override {}
+    Image colors;
+
+  private:
+    ListenedWave wave_;
+    bool let_through_ = false;
+};
 
 class FetchesTest : public testing::Test {
   protected:
@@ -137,6 +167,7 @@ TEST_F(StackTest, CountsOfAFullFrameQuadAreAnalytic) {
                                            {texunit::Kernel::Bilinear, 4},
                                            {texunit::Kernel::Quadratic, 9},
                                            {texunit::Kernel::BSpline, 16},
+                                           {texunit::Kernel::mitchell(), 16},
                                            {texunit::Kernel::CatmullRom, 16},
                                            {texunit::Kernel::Lanczos2, 16},
                                            {texunit::Kernel::Lanczos3, 36}}) {
@@ -151,6 +182,51 @@ TEST_F(StackTest, CountsOfAFullFrameQuadAreAnalytic) {
     }
 }
 
+/// So what is counted is what the frame looks up: its coordinates to the last bit.
+TEST_F(FetchesTest, ComeFromTheCoordinatesThatTheFrameLooksUp) {
+    Scene scene = make_busy_scene();
+    for (Material& material : scene.materials) {
+        material.unlit = true;
+        material.base_color = glm::vec4(1.0f, 1.0f, 1.0f, material.base_color.a);
+    }
+    for (Mesh& mesh : scene.meshes) mesh.colors.clear();
+    for (const PixelJitter jitter : {PixelJitter::Frame, PixelJitter::Pixel}) {
+        RenderOptions options = busy_options();
+        options.fetches = {};
+        options.spp = 1;
+        options.pixel_jitter = jitter;
+        options.background = glm::vec3(0.0f);
+        Relooker listener(options.width, options.height);
+        options.listener = &listener;
+        const std::unique_ptr<Executor> executor = make_executor(ExecutorKind::Threads, 1);
+        const RenderResult result = render(scene, Lighting{}, options, *executor);
+        int seen = 0;
+        for (int y = 0; y < options.height; ++y) {
+            for (int x = 0; x < options.width; ++x) {
+                const float* const looked_up = listener.colors.pixel(x, y);
+                if (looked_up[0] == 0 && looked_up[1] == 0 && looked_up[2] == 0) continue;  // no texture, or nothing seen
+                ++seen;
+                for (int c = 0; c < 3; ++c) ASSERT_EQ(looked_up[c], result.radiance.pixel(x, y)[c]) << x << ',' << y;
+            }
+        }
+        EXPECT_GT(seen, options.width * options.height / 8);
+    }
+}
+
+TEST_F(FetchesTest, OfASceneWithoutTexturesAreNone) {
+    scene_ = Scene{};
+    add_object(scene_, make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), unlit(glm::vec4(1.0f)));
+    RenderOptions options = busy_options();
+    options.camera = square_camera();
+    options.fetches.pixel_layers = true;
+    options.fetches.cache = texunit::CacheSpec{};
+    options.fetches.cache->cores = 256;
+    const RenderResult result = render_with(options, ExecutorKind::Threads, 2);
+    EXPECT_EQ(result.fetches->total(), texunit::FetchCounts{});
+    EXPECT_TRUE(result.fetches->measure().empty());
+    EXPECT_EQ(sum(result.fetches->pixel(PixelCount::Samples)), double(result.samples_shaded));
+}
+
 TEST_F(FetchesTest, AreTheSameForAnyThreadsAndTileSize) {
     for (const FetchModel model : {FetchModel::Visible, FetchModel::Forward, FetchModel::Quad}) {
         RenderOptions options = busy_options();
@@ -163,6 +239,48 @@ TEST_F(FetchesTest, AreTheSameForAnyThreadsAndTileSize) {
                 const RenderResult other = render_with(options, kind, 3);
                 EXPECT_EQ(other.fetches->counts, expected.fetches->counts) << to_string(model) << ' ' << tile_size;
                 EXPECT_EQ(other.fetches->measure(), expected.fetches->measure()) << to_string(model) << ' ' << tile_size;
+            }
+        }
+    }
+}
+
+TEST_F(StackTest, CountsOfGaussiansFollowFromTheirPhases) {
+    constexpr double kTexels = 24.3;
+    scene_.textures.push_back(make_noise_texture(256, 256, 1));
+    Material material = unlit(glm::vec4(1.0f));
+    material.maps[kBaseColor].texture = 0;
+    add_object(scene_, make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, glm::vec2(float(kTexels) / 256)), material);
+    const auto taps = [&](const texunit::Kernel& kernel) {
+        options_.filter = kernel;
+        return render(scene_, Lighting{}, options_, *executor_).fetches->counts[0].taps;
+    };
+    // The one reaches every texel that [x - 4 sigma, x + 4 sigma] touches, the other every centre in it.
+    uint64_t touched = 0, centres = 0;
+    for (int i = 0; i < 64; ++i) {
+        const double x = (i + 0.5) / 64 * kTexels, wide = 4 * 0.5, narrow = 4 * double(0.7f);
+        touched += uint64_t(std::ceil(x + wide) - std::floor(x - wide));
+        centres += uint64_t(std::floor(x + narrow - 0.5) - std::ceil(x - narrow - 0.5) + 1);
+    }
+    EXPECT_EQ(taps(texunit::Kernel::gaussian(0.5f)), touched * touched);
+    EXPECT_EQ(taps(texunit::Kernel::gaussian_point(0.7f)), centres * centres);
+}
+
+TEST_F(FetchesTest, OfACropAreThoseOfThatPart) {
+    for (const FetchModel model : {FetchModel::Visible, FetchModel::Forward, FetchModel::Quad}) {
+        RenderOptions options = busy_options();
+        options.fetches.model = model;
+        options.fetches.pixel_layers = true;
+        options.crop = {};
+        const RenderResult whole = render_with(options);
+        for (const Crop& crop : {Crop{5, 3, 51, 47}, Crop{63, 31, 2, 3}, Crop{164, 100, 1, 1}}) {
+            options.crop = crop;
+            const RenderResult part = render_with(options);
+            for (const PixelCount count : {PixelCount::TexelsRequested, PixelCount::LinesPixel, PixelCount::Level, PixelCount::Samples}) {
+                for (int y = 0; y < crop.height; ++y) {
+                    for (int x = 0; x < crop.width; ++x)
+                        ASSERT_EQ(*part.fetches->pixel(count).pixel(x, y), *whole.fetches->pixel(count).pixel(crop.x + x, crop.y + y))
+                            << to_string(model) << ' ' << to_string(count) << ' ' << x << ',' << y;
+                }
             }
         }
     }
@@ -297,7 +415,7 @@ TEST(FetchSequencer, HandsOnInTheOrderOfTilesWhoeverComesFirst) {
             for (uint32_t n = 0; n < kStreams; ++n) {
                 texunit::FetchStream stream;
                 // Some tiles hand in more than may wait.
-                stream.pixels.assign(tile % 7 == 3 ? size_t{1} << 20 : 1, {0, 0, n, 0});
+                stream.pixels.assign(tile % 7 == 3 ? size_t{3} << 20 : 1, {0, 0, n, 0});
                 if (tile % 3 == 0) std::this_thread::yield();
                 sequencer.hand_in(tile, stream);
                 EXPECT_TRUE(stream.empty());
@@ -315,13 +433,36 @@ TEST(FetchSequencer, HandsOnInTheOrderOfTilesWhoeverComesFirst) {
     }
 }
 
+TEST(FetchSequencer, PassesOnWhatTheConsumerThrowsWhileOthersWait) {
+    // A full disk, say, at the last stream of the tile that is due.
+    FetchSequencer sequencer([](int64_t tile, const texunit::FetchStream&) {
+        if (tile == 1) throw std::runtime_error("full");
+    });
+    const int64_t due = sequencer.next_tile(), next = sequencer.next_tile(), last = sequencer.next_tile();
+    texunit::FetchStream stream;
+    stream.pixels.assign(1, {});
+    sequencer.hand_in(next, stream);
+    std::thread waiter([&] {
+        texunit::FetchStream large;
+        large.pixels.assign(size_t{32} << 20, {});
+        sequencer.hand_in(last, large);
+    });
+    try {
+        sequencer.finish(due);
+        ADD_FAILURE() << "nothing thrown";
+    } catch (const std::runtime_error&) {
+        sequencer.abandon();
+    }
+    waiter.join();
+}
+
 TEST(FetchSequencer, LetsEveryoneGoWhenATileFails) {
     FetchSequencer sequencer([](int64_t, const texunit::FetchStream&) {});
     const int64_t failing = sequencer.next_tile(), waiting = sequencer.next_tile();
     std::thread waiter([&] {
         for (int n = 0; n < 3; ++n) {
             texunit::FetchStream stream;
-            stream.pixels.assign(size_t{2} << 20, {});
+            stream.pixels.assign(size_t{6} << 20, {});
             sequencer.hand_in(waiting, stream);
         }
         sequencer.finish(waiting);
