@@ -53,6 +53,10 @@ std::string_view form_of(CoordinateKind kind) {
 
 size_t components(CoordinateKind kind) { return kind == CoordinateKind::Uv ? 2 : 3; }
 
+LookupPlace place_of(const texunit::LaneCoordinates& at) {
+    return {{at.u, at.v, 0.0f}, Derivatives{{at.dudx, at.dvdx, 0.0f}, {at.dudy, at.dvdy, 0.0f}}};
+}
+
 std::array<float, 3> parse_components(std::string_view option, std::string_view text, CoordinateKind kind) {
     const size_t n = components(kind);
     return take(parse_numbers(option, text, form_of(kind), n, n), 0, n);

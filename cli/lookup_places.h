@@ -1,6 +1,7 @@
 // Where a texture is looked up: coordinates and derivatives from the command line or from a file of many.
 #pragma once
 
+#include "texunit/lookup_trace.h"
 #include "texunit/texel_source.h"
 
 #include <array>
@@ -27,6 +28,9 @@ struct LookupPlace {
     std::array<float, 3> at{};
     std::optional<Derivatives> derivatives;
 };
+
+/// Of a flat texture.
+LookupPlace place_of(const texunit::LaneCoordinates& at);
 
 /// "U,V" or however many components `kind` has; any finite numbers. Throws UsageError naming `option`.
 std::array<float, 3> parse_components(std::string_view option, std::string_view text, CoordinateKind kind);

@@ -72,8 +72,10 @@ std::string describe_footprint(const SamplerState& sampler) {
 
 std::string describe_sampler(const Shape& shape, const SamplerState& sampler) {
     const bool exact = sampler.precision == texunit::Precision::Exact;
-    return "Sampler: " + to_string(sampler.minify) + ", mip " + std::string(to_string(sampler.mip)) + ", " +
-           describe_wraps(shape, sampler) + describe_footprint(sampler) + "\nPrecision: " + std::string(to_string(sampler.precision)) +
+    const bool one_kernel = sampler.magnify == sampler.minify;
+    return "Sampler: " + to_string(sampler.minify) + (one_kernel ? "" : " (magnified " + to_string(sampler.magnify) + ")") + ", mip " +
+           std::string(to_string(sampler.mip)) + ", " + describe_wraps(shape, sampler) + describe_footprint(sampler) +
+           "\nPrecision: " + std::string(to_string(sampler.precision)) +
            (exact ? " (fractions of texels and levels are not quantised)\n" : " (fractions of texels and levels in steps of 1/256)\n");
 }
 
@@ -145,17 +147,18 @@ std::string tap_table(const Shape& shape, const LookupTrace& trace) {
 
 }  // namespace
 
-std::string lookup_json(const ReportedLookup& lookup) {
+Json lookup_object(const ReportedLookup& lookup) {
     const LookupTrace& trace = lookup.trace;
     Json taps = Json::array();
     for (const TracedTap& tap : trace.taps) taps.push_back(tap_json(lookup.texture.shape(), tap));
-    const Json json{{"lod", trace.lod},
-                    {"anisotropy", trace.anisotropy},
-                    {"precision", to_string(lookup.sampler.precision)},
-                    {"taps", std::move(taps)},
-                    {"result", trace.result}};
-    return json.dump() + "\n";
+    return {{"lod", trace.lod},
+            {"anisotropy", trace.anisotropy},
+            {"precision", to_string(lookup.sampler.precision)},
+            {"taps", std::move(taps)},
+            {"result", trace.result}};
 }
+
+std::string lookup_json(const ReportedLookup& lookup) { return lookup_object(lookup).dump() + "\n"; }
 
 std::string lookup_table(const ReportedLookup& lookup) {
     const Shape& shape = lookup.texture.shape();

@@ -5,6 +5,8 @@
 #include "texunit/lookup_trace.h"
 #include "texunit/texture.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 
 namespace rawtexel::cli {
@@ -17,9 +19,11 @@ struct ReportedLookup {
     const texunit::LookupTrace& trace;
 };
 
-/// One line: {"lod", "anisotropy", "precision", "taps": [{"level", "x", "y", "weight", "value"}], "result"}. Taps of arrays have "layer"
+/// {"lod", "anisotropy", "precision", "taps": [{"level", "x", "y", "weight", "value"}], "result"}. Taps of arrays have "layer"
 /// too, those of cube maps "face" (and "layer" in an array of cubes), those of volumes "z"; taps that take the border colour have
 /// "border": true and null for the texel. Numbers that are not finite are null.
+nlohmann::ordered_json lookup_object(const ReportedLookup& lookup);
+/// The same on one line.
 std::string lookup_json(const ReportedLookup& lookup);
 
 /// Texture, sampler and precision, level of detail and each level's share, every tap, their sum and the result.

@@ -2,6 +2,7 @@
 
 #include "cli/command.h"
 #include "cli/commands/compare.h"
+#include "cli/commands/explain.h"
 #include "cli/commands/export.h"
 #include "cli/commands/list.h"
 #include "cli/commands/render.h"
@@ -26,10 +27,10 @@ namespace rawtexel::cli {
 namespace {
 
 using Words = std::vector<std::string>;
-using Commands = std::array<std::unique_ptr<Command>, 6>;
+using Commands = std::array<std::unique_ptr<Command>, 7>;
 
 Commands all_commands() {
-    return {make_render_command(),  make_compare_command(), make_sample_command(),
+    return {make_render_command(),  make_compare_command(), make_explain_command(), make_sample_command(),
             make_texture_command(), make_list_command(),    make_export_command()};
 }
 

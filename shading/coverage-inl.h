@@ -39,6 +39,10 @@ class AlphaCoverage {
         return mask & (material.alpha_mode == AlphaMode::Mask ? at_least(material.alpha_cutoff) : drawn(candidate));
     }
 
+    /// Of the wave asked about last, at the lanes that are inside.
+    const WaveFloat& alpha() const { return alpha_; }
+    const texunit::WaveCoordinates& coordinates() const { return coordinates_; }
+
   private:
     /// Fills alpha_.
     void find_alpha(const DrawState& draw, const raster::CandidateWave& candidate, WaveMask mask) {

@@ -54,7 +54,7 @@ struct Worker {
 /// Renders all tiles into the images of `result` and adds up the workers' totals. `account`: null when nobody counts.
 TileTotals render_tiles(const TileInputs& inputs, FetchAccount* account, const RenderOptions& options, RenderResult& result,
                         Executor& executor, const Progress& progress) {
-    assert(options.listener == nullptr || executor.threads() == 1);
+    assert((options.listener == nullptr && options.fragment_listener == nullptr) || executor.threads() == 1);
     const TileRange tiles(inputs.visible, inputs.frame->options().tile_size);
     std::vector<std::unique_ptr<Worker>> workers(size_t(executor.threads()));
     std::atomic<int64_t> done{0};
@@ -66,6 +66,7 @@ TileTotals render_tiles(const TileInputs& inputs, FetchAccount* account, const R
         std::unique_ptr<Worker>& worker = workers[size_t(number)];
         if (!worker) {
             worker = std::make_unique<Worker>(inputs);
+            worker->scratch.fragment_listener = options.fragment_listener;
             worker->scratch.listener = account ? &account->add_worker() : options.listener;
         }
         if (!account) {
@@ -143,7 +144,7 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
         .pixel_filter = options.pixel_filter,
         .pixel_jitter = options.pixel_jitter,
         .seed = options.seed,
-        .derivatives = derivative_rule(options.footprint, options.spp),
+        .derivatives = derivative_rule(options.footprint, options.image_spp > 0 ? options.image_spp : options.spp),
         .background = options.background,
         .planes = TilePlanes(options.aovs, options.coverage),
         .fetch_model = fetches.model,

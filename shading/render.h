@@ -6,6 +6,7 @@
 #include "shading/executor.h"
 #include "shading/fetch_options.h"
 #include "shading/footprint_options.h"
+#include "shading/fragment_listener.h"
 #include "shading/frame_fetches.h"
 #include "shading/image.h"
 #include "shading/lighting.h"
@@ -33,6 +34,7 @@ struct RenderOptions {
     int spp = 1;
     /// The first of the `spp` samples: parts of one image may be rendered apart, and SampleTree adds them to the bits of the whole.
     uint32_t first_sample = 0;
+    int image_spp = 0;  ///< of the whole image, where `spp` is of a part of it: FootprintArea::Sample goes by it. 0: spp
     PixelFilter pixel_filter = PixelFilter::Box;
     PixelJitter pixel_jitter = PixelJitter::Frame;
     uint32_t seed = 0;
@@ -47,6 +49,7 @@ struct RenderOptions {
     FetchOptions fetches;   ///< what RenderResult::fetches is to hold; layers of counts ask for theirs themselves
     /// Hears of every lookup in place of counters: one thread's executor is wanted.
     LookupListener* listener = nullptr;
+    FragmentListener* fragment_listener = nullptr;  ///< watches every fragment; one thread's executor is wanted
     int tile_size = 64;  ///< 32, 64 or 128
 };
 

@@ -27,8 +27,9 @@ namespace HWY_NAMESPACE {
 
 /// A block of pixels at one sample.
 struct PixelWave {
-    int x = 0, y = 0;     ///< upper left pixel, in the frame
-    size_t index = 0;     ///< in the tile, row by row
+    int x = 0, y = 0;  ///< upper left pixel, in the frame
+    size_t index = 0;  ///< in the tile, row by row
+    uint32_t sample = 0;
     WaveMask inside = 0;  ///< pixels that are to be rendered
     alignas(64) raster::SampleOffset offset[texunit::kWaveLanes];
     alignas(64) uint32_t setup_index[texunit::kWaveLanes];
@@ -66,7 +67,7 @@ class TileRenderer {
             find_visible(sample);
             const auto drawn = Clock::now();
             first_sample_ = k == 0;
-            shade_sample();
+            shade_sample(sample);
             if (demanded) demanded->tell_sample(sample, frame_offset_);
             scratch_.sums.add(sample, {scratch_.sample.data()->lane, scratch_.sample.size() * texunit::kWaveLanes});
             scratch_.totals.raster_s += std::chrono::duration<double>(drawn - start).count();
@@ -77,6 +78,7 @@ class TileRenderer {
 
   private:
     bool listens() const { return scratch_.listener != nullptr; }
+    bool watched() const { return scratch_.fragment_listener != nullptr; }
     size_t wave_count() const { return size_t(tile_size_ * tile_size_ / texunit::kWaveLanes); }
     WaveFloat& plane(int number, size_t wave) { return scratch_.sample[size_t(number) * wave_count() + wave]; }
     WaveFloat& first_sample_plane(int number, size_t wave) { return scratch_.first_sample[size_t(number) * wave_count() + wave]; }
@@ -109,10 +111,10 @@ class TileRenderer {
         const bool per_pixel = inputs_.pixel_jitter == PixelJitter::Pixel;
         const raster::TileSamples samples{frame_offset_, per_pixel ? scratch_.offsets.data() : nullptr};
         coverage_.begin_sample(sample);
-        if (listens()) {
+        if (listens() || watched()) {
             scratch_.candidates.clear();
-            scratch_.candidates.keeps_opaque = inputs_.fetch_model != FetchModel::Visible;
-            raster::HWY_NAMESPACE::tile_visibility(frame_, tile_x_, tile_y_, samples, LoggingCoverage{*this}, scratch_.visibility);
+            scratch_.candidates.keeps_opaque = listens() && inputs_.fetch_model != FetchModel::Visible;
+            raster::HWY_NAMESPACE::tile_visibility(frame_, tile_x_, tile_y_, samples, ToldCoverage{*this, sample}, scratch_.visibility);
         } else {
             const auto cover = [this](const raster::CandidateWave& candidate) HWY_ATTR { return coverage_.cover(candidate); };
             raster::HWY_NAMESPACE::tile_visibility(frame_, tile_x_, tile_y_, samples, cover, scratch_.visibility);
@@ -120,12 +122,14 @@ class TileRenderer {
         scratch_.totals.hiz_rejected += scratch_.visibility.hiz_rejected;
     }
 
-    /// The tile's coverage, which also writes down whom it was asked about.
-    struct LoggingCoverage {
+    /// The tile's coverage, which also writes down or tells whom it was asked about.
+    struct ToldCoverage {
         TileRenderer& tile;
+        uint32_t sample;
         uint32_t operator()(const raster::CandidateWave& candidate) {
             const uint32_t covered = tile.coverage_.cover(candidate);
-            tile.log(candidate, covered);
+            if (tile.listens()) tile.log(candidate, covered);
+            if (tile.watched()) tile.tell_judged(candidate, covered, sample);
             return covered;
         }
         void opaque(const raster::CandidateWave& candidate) {
@@ -139,10 +143,47 @@ class TileRenderer {
         scratch_.candidates.add(candidate, uint32_t(wave), lanes, covered & lanes);
     }
 
+    void tell_judged(const raster::CandidateWave& candidate, WaveMask covered, uint32_t sample) {
+        const WaveMask lanes = candidate.mask & lanes_inside(inputs_.visible, candidate.x, candidate.y);
+        if (lanes == 0) return;
+        scratch_.fragment_listener->judged({.block = {candidate.x, candidate.y, sample, lanes},
+                                            .draw = &inputs_.draws[candidate.triangle->draw],
+                                            .triangle = candidate.triangle,
+                                            .setup_index = candidate.setup_index,
+                                            .covered = covered & lanes,
+                                            .depth = candidate.depth,
+                                            .alpha = &coverage_.alpha(),
+                                            .base_color = &coverage_.coordinates()});
+    }
+
+    void tell_shaded(const DrawState& draw, WaveMask pass) {
+        scratch_.fragment_listener->shaded({.block = {wave_.x, wave_.y, wave_.sample, pass},
+                                            .draw = &draw,
+                                            .frame = &frame_,
+                                            .setup_index = wave_.setup_index,
+                                            .weights = &weights_,
+                                            .fragment = &fragment_,
+                                            .maps = maps_.slot,
+                                            .surface = &surface_});
+    }
+
+    /// Of the wave at pixel (x, y) of the tile.
+    void tell_sampled(int x, int y) {
+        alignas(64) float depth[texunit::kWaveLanes];
+        for (int row = 0; row < texunit::kWaveHeight; ++row)
+            std::copy_n(&scratch_.visibility.depth[size_t((y + row) * tile_size_ + x)], texunit::kWaveWidth,
+                        depth + row * texunit::kWaveWidth);
+        const WaveFloat* const radiance = &plane(TilePlanes::kRadiance, wave_.index);
+        scratch_.fragment_listener->sampled({.block = {wave_.x, wave_.y, wave_.sample, wave_.inside},
+                                             .radiance = {radiance, radiance + wave_count(), radiance + 2 * wave_count()},
+                                             .depth = depth});
+    }
+
     /// Index of the wave whose upper left pixel is (x, y) of the tile.
     size_t wave_at(int x, int y) const { return size_t(y / texunit::kWaveHeight * waves_x_ + x / texunit::kWaveWidth); }
 
-    void shade_sample() {
+    void shade_sample(uint32_t sample) {
+        wave_.sample = sample;
         for (int y = 0; y < tile_size_; y += texunit::kWaveHeight) {
             for (int x = 0; x < tile_size_; x += texunit::kWaveWidth) {
                 wave_.x = tile_x_ * tile_size_ + x;
@@ -163,6 +204,7 @@ class TileRenderer {
         scratch_.totals.samples_shaded += uint64_t(std::popcount(surface));
         if (surface != 0) shade_surfaces(surface);
         if (wave_.inside & ~surface) shade_background(wave_.inside & ~surface);
+        if (watched()) tell_sampled(x, y);
     }
 
     /// What the tile's arrays hold for the wave's pixels.
@@ -272,6 +314,7 @@ class TileRenderer {
             shade_lanes(*inputs_.lighting, surface_, pass, radiance_);
             store_vector(radiance_, pass, TilePlanes::kRadiance, wave_.index);
         }
+        if (watched()) tell_shaded(draw, pass);
         if (inputs_.planes.hits >= 0) store_layers(draw, pass);
         if (wants_lod) store_wave(lod, pass, first_sample_plane(inputs_.planes.lod, wave_.index));
         if (first_sample_ && inputs_.planes.material >= 0)

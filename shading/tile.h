@@ -7,6 +7,7 @@
 #include "shading/candidate_log.h"
 #include "shading/draw_state.h"
 #include "shading/fetch_options.h"
+#include "shading/fragment_listener.h"
 #include "shading/lighting.h"
 #include "shading/lookup_listener.h"
 #include "shading/pixel_rect.h"
@@ -58,7 +59,8 @@ struct TileScratch {
     std::vector<texunit::WaveFloat> sample;
     std::vector<texunit::WaveFloat> first_sample;  ///< planes that show the first sample alone
     SampleTree sums;
-    LookupListener* listener = nullptr;  ///< hears of the tile's lookups; null: nobody does
+    LookupListener* listener = nullptr;             ///< hears of the tile's lookups; null: nobody does
+    FragmentListener* fragment_listener = nullptr;  ///< likewise of its fragments
     CandidateLog candidates;             ///< of the sample at hand, for the listener
     TileTotals totals;
 };

@@ -1,6 +1,7 @@
 #include "cli/commands/render.h"
 
 #include "cli/fetch_files.h"
+#include "cli/frame_setup.h"
 #include "cli/illumination.h"
 #include "cli/image_output.h"
 #include "cli/limits.h"
@@ -13,7 +14,6 @@
 #include "cli/scenario.h"
 #include "cli/stats.h"
 #include "cli/view.h"
-#include "cli/word_list.h"
 #include "scenes/load.h"
 #include "scenes/output_file.h"
 #include "shading/render.h"
@@ -23,37 +23,6 @@
 
 namespace rawtexel::cli {
 namespace {
-
-void choose_instruction_set(texunit::Simd simd) {
-    if (texunit::choose_simd(simd)) return;
-    std::vector<std::string> available;
-    for (const texunit::Simd set : texunit::available_simd()) available.emplace_back(to_string(set));
-    throw UsageError("--simd: " + std::string(to_string(simd)) + " is not available on this machine (" + join(available, " ") + ")");
-}
-
-shading::RenderOptions frame_options(const RenderRequest& request, const shading::Camera& camera, std::vector<shading::Aov> aovs) {
-    shading::RenderOptions options;
-    options.width = request.image_size().width;
-    options.height = request.image_size().height;
-    options.crop = request.crop;
-    options.camera = camera;
-    options.spp = request.samples.spp;
-    options.pixel_filter = request.samples.pixel_filter;
-    options.pixel_jitter = request.samples.pixel_jitter;
-    options.seed = request.samples.seed;
-    options.filter = request.lookup.filter;
-    options.mip = request.lookup.mip;
-    options.footprint = request.lookup.footprint;
-    options.precision = request.lookup.precision;
-    options.background = request.tone.white_backdrop ? glm::vec3(0.0f) : request.light.background;
-    options.coverage = request.tone.white_backdrop;
-    options.aovs = std::move(aovs);
-    options.fetches.count = request.fetches.counts();
-    options.fetches.model = request.fetches.model.value_or(shading::FetchModel::Visible);
-    options.fetches.cache = request.fetches.cache;
-    options.tile_size = request.machine.tile_size;
-    return options;
-}
 
 scenes::Placement placement(const RenderRequest& request) {
     const ImageSize size = request.image_size();
@@ -170,13 +139,7 @@ void RenderCommand::check_before_long_work(const Invocation& invocation) const {
 
 shading::Scene RenderCommand::load_scene(const Invocation& invocation, ProgressReport& progress) const {
     std::vector<std::string> opened;
-    scenes::LoadOptions options;
-    options.texture.mip_storage = request_.lookup.mip_storage;
-    options.files = request_.lookup.files;
-    options.warn = [&](const std::string& what) {
-        progress.clear();
-        warn(invocation, what);
-    };
+    scenes::LoadOptions options = load_options(request_, invocation, progress);
     options.opened = [&](const std::string& path) { opened.push_back(path); };
     shading::Scene scene = scenes::load(scene_, options);
     check_apart(output_files(), opened);
@@ -229,7 +192,8 @@ int RenderCommand::run(const Invocation& invocation) {
     record.view = view.options;
     record.request = request_;
     record.times.load_s = ProgressReport::steady_seconds() - start;
-    shading::RenderOptions options = frame_options(request_, view.camera, aovs_);
+    shading::RenderOptions options = frame_options(request_, view.camera);
+    options.aovs = aovs_;
     options.fetches.pixel_layers = !counts_.empty();
     std::optional<TraceFile> trace;
     if (!trace_.empty()) options.fetches.trace = &trace.emplace(trace_).writer();

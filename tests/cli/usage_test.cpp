@@ -80,7 +80,7 @@ TEST(Usage, AFullStandardOutputIsExitCode4) {
 TEST(Usage, HelpIsComplete) {
     const test::Outcome whole = run({"--help"});
     EXPECT_EQ(whole.code, 0);
-    for (const char* part : {"render", "compare", "sample", "texture", "list", "export", "--version", "Exit codes"})
+    for (const char* part : {"render", "compare", "explain", "sample", "texture", "list", "export", "--version", "Exit codes"})
         EXPECT_NE(whole.out.find(part), std::string::npos) << part;
     const std::initializer_list<std::pair<const char*, std::vector<const char*>>> commands{
         {"render", {"--size",         "--crop",         "--camera",      "--orbit",     "--eye",         "--target",
@@ -91,6 +91,7 @@ TEST(Usage, HelpIsComplete) {
                     "--aov",          "--count",        "--stats",       "--repeat",    "--threads",     "--tile-size",
                     "--simd",         "--progress",     "--scenario",    "-o,--output", "SCENE",         "--help"}},
         {"compare", {"-o,--output", "--json", "--csv", "--max-rmse", "--min-psnr", "IMAGE", "REFERENCE"}},
+        {"explain", {"SCENE", "--pixel", "--sample", "--json", "--size", "--camera", "--filter", "--spp", "--exposure", "--threads"}},
         {"sample", {"TEXTURE",   "--uv",      "--uvw",         "--direction", "--ddx",         "--ddy",         "--lod",
                     "--layer",   "--filter",  "--mip",         "--precision", "--mip-storage", "--bc-rounding", "--max-texture-bytes",
                     "--wrap",    "--border",  "--color-space", "--aniso",     "--ewa",         "--lod-rule",    "--lod-bias",
@@ -109,7 +110,7 @@ TEST(Usage, HelpIsComplete) {
 }
 
 TEST(Usage, HelpIsACommandToo) {
-    for (const std::string command : {"render", "compare", "sample", "texture", "list", "export"})
+    for (const std::string command : {"render", "compare", "explain", "sample", "texture", "list", "export"})
         EXPECT_EQ(run({"help", command}).out, run({command, "--help"}).out) << command;
     for (const std::vector<std::string>& words : {std::vector<std::string>{"help"}, {"help", "help"}, {"help", "--help"}})
         EXPECT_EQ(run(words).out, run({"--help"}).out);

@@ -1,0 +1,126 @@
+#include "cli/explanation_report.h"
+
+#include "cli/lookup_report.h"
+#include "cli/option_values.h"
+#include "cli/word_list.h"
+#include "scenes/message_text.h"
+
+#include <algorithm>
+
+namespace rawtexel::cli {
+namespace {
+
+using shading::AlphaMode;
+
+/// `text`, every line of it `spaces` to the right.
+std::string indented(const std::string& text, size_t spaces) {
+    std::string result;
+    for (size_t begin = 0; begin < text.size();) {
+        const size_t end = std::min(text.find('\n', begin), text.size());
+        result += std::string(spaces, ' ') + text.substr(begin, end - begin) + "\n";
+        begin = end + 1;
+    }
+    return result;
+}
+
+std::string quoted(const std::string& name) { return name.empty() ? "" : " '" + scenes::one_line(name) + "'"; }
+
+std::string print_double(double value) { return print_number(float(value)); }
+
+/// Its triangle, where it belongs and what it is made of.
+std::string describe(const ExplainedTriangle& triangle) {
+    const auto number = [](uint32_t value) { return std::to_string(value); };
+    return std::string("triangle ") + number(triangle.id) + ", the " + (triangle.front ? "front" : "back") + " of triangle " +
+           number(triangle.primitive) + " of instance " + number(triangle.instance) + quoted(triangle.mesh->name) + ", material " +
+           number(triangle.material_index) + quoted(triangle.material->name);
+}
+
+std::string describe(const AlphaVerdict& verdict, AlphaMode mode) {
+    const std::string alpha = print_number(verdict.alpha), threshold = print_number(verdict.threshold);
+    if (mode == AlphaMode::Mask)
+        return "MASK: alpha " + alpha + (verdict.covers ? " >= " : " < ") + "cutoff " + threshold +
+               (verdict.covers ? ": covers" : ": lets through");
+    return "BLEND: random number " + threshold + (verdict.covers ? " < " : " >= ") + "alpha " + alpha +
+           (verdict.covers ? ": covers" : ": lets through") + " (dimension coverage of surface " + std::to_string(verdict.random_surface) +
+           ")";
+}
+
+std::string describe(const ExplainedLookup& lookup) {
+    const texunit::LookupTrace trace = trace_lookup(*lookup.texture, lookup.sampler, lookup.at);
+    const LookupPlace place = place_of(lookup.at);
+    std::vector<std::string> value;
+    for (const float channel : trace.result) value.push_back(print_number(channel));
+    return "Map: " + std::string(name_of(lookup.slot)) + "\n" +
+           indented(lookup_table({*lookup.texture, lookup.sampler, place, trace}) + "Value: " + join(value, ",") + "\n", 2);
+}
+
+std::string describe(const ExplainedCandidate& candidate) {
+    std::string text = "In front: " + describe(candidate.triangle) + "\n";
+    text += indented(describe(candidate.verdict, candidate.triangle.material->alpha_mode), 2);
+    if (candidate.lookup) text += indented(describe(*candidate.lookup), 2);
+    return text;
+}
+
+std::string describe(const ExplainedReflection& reflection) {
+    std::string text = "Metallic: " + print_number(reflection.metallic) + ", roughness: " + print_number(reflection.roughness) +
+                       ", occlusion: " + print_number(reflection.occlusion) + ", emission: " + print_vector(reflection.emission) +
+                       "\nLight, added up in this order:\n";
+    for (const shading::LightTerm& term : reflection.light)
+        text += "  " + scenes::one_line(term.source) + ": " + print_vector(term.radiance) + "\n";
+    return text;
+}
+
+std::string describe(const ExplainedSurface& surface) {
+    std::string text = "Surface: " + describe(surface.triangle) + "\n", details;
+    if (surface.verdict) details += describe(*surface.verdict, surface.triangle.material->alpha_mode) + "\n";
+    details += "Barycentrics: " + print_vector(surface.barycentrics) + "\n";
+    details += "Position: " + print_vector(surface.position) + " m, " + print_number(surface.distance) + " m along the view axis\n";
+    for (const ExplainedLookup& lookup : surface.lookups) details += describe(lookup);
+    if (surface.vertex_color) {
+        const glm::vec4& color = *surface.vertex_color;
+        details += "Vertex colour: " + print_vector(glm::vec3(color)) + "," + print_number(color.a) + "\n";
+    }
+    details += "Base colour: " + print_vector(surface.base_color) + "\n";
+    details += "Normal: " + print_vector(surface.normal) + ", of the triangle " + print_vector(surface.geometric_normal) + "\n";
+    details += surface.reflection ? describe(*surface.reflection) : "Unlit: the base colour is the radiance\n";
+    return text + indented(details, 2);
+}
+
+class ExplanationText final : public ExplanationReport {
+  public:
+    explicit ExplanationText(std::ostream& out) : out_(out) {}
+
+    void begin(const ExplainedPixel& pixel) override {
+        spp_ = pixel.spp;
+        out_ << "Pixel " << pixel.x << ',' << pixel.y << " of " << pixel.width << 'x' << pixel.height << ", scene "
+             << scenes::one_line(pixel.scene) << "\nCamera: " << pixel.camera << "\nSamples: " << pixel.spp << ", pixel filter "
+             << to_string(pixel.pixel_filter) << ", pixel jitter " << to_string(pixel.pixel_jitter) << ", seed " << pixel.seed << '\n';
+    }
+
+    void sample(const ExplainedSample& sample) override {
+        const float one = float(raster::kSampleOne);
+        out_ << "\nSample " << sample.sample << "\n  Point: " << print_number(float(sample.offset.x) / one) << ','
+             << print_number(float(sample.offset.y) / one) << " from the pixel's upper left corner (random shift of the sequence "
+             << print_double(double(sample.shift.x) * 0x1p-32) << ',' << print_double(double(sample.shift.y) * 0x1p-32) << ")\n";
+        for (const ExplainedCandidate& candidate : sample.let_through) out_ << indented(describe(candidate), 2);
+        out_ << indented(sample.surface ? describe(*sample.surface) : "Background: no surface is seen\n", 2);
+        out_ << "  Radiance: " << print_vector(sample.radiance) << ", weight 1/" << spp_ << '\n';
+    }
+
+    void end(const ExplainedMean* mean) override {
+        if (!mean) return;
+        out_ << "\nMean: " << print_vector(mean->mean) << "\nRendered: " << print_vector(mean->rendered)
+             << (same_bits(mean->mean, mean->rendered) ? ", the same bits\n" : ", which DIFFERS\n") << "Displayed in 8 bits ("
+             << mean->display << "): " << int(mean->codes[0]) << ',' << int(mean->codes[1]) << ',' << int(mean->codes[2]) << '\n';
+    }
+
+  private:
+    std::ostream& out_;
+    int spp_ = 1;
+};
+
+}  // namespace
+
+std::unique_ptr<ExplanationReport> make_explanation_text(std::ostream& out) { return std::make_unique<ExplanationText>(out); }
+
+}  // namespace rawtexel::cli

@@ -1,0 +1,21 @@
+// From what a user asked for to what loading a scene and rendering a frame take.
+#pragma once
+
+#include "cli/command.h"
+#include "cli/progress.h"
+#include "cli/render_options.h"
+#include "scenes/load.h"
+#include "shading/render.h"
+
+namespace rawtexel::cli {
+
+/// Throws UsageError where this machine does not have it.
+void choose_instruction_set(texunit::Simd simd);
+
+/// Warnings go to the invocation, past the progress. Both outlive the options.
+scenes::LoadOptions load_options(const RenderRequest& request, const Invocation& invocation, ProgressReport& progress);
+
+/// Everything of a frame that the shared options say.
+shading::RenderOptions frame_options(const RenderRequest& request, const shading::Camera& camera);
+
+}  // namespace rawtexel::cli

@@ -1,0 +1,109 @@
+// Everything behind one pixel, as data: of each sample the surfaces, their lookups, the light and the radiance.
+#pragma once
+
+#include "raster/sample_grid.h"
+#include "shading/light_terms.h"
+#include "shading/pixel_sampling.h"
+#include "shading/scene.h"
+#include "texunit/lookup_trace.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rawtexel::cli {
+
+/// Where a map of a material was looked up. texunit::trace_lookup tells the taps and the value.
+struct ExplainedLookup {
+    shading::MapSlot slot{};
+    texunit::Texture* texture = nullptr;
+    texunit::SamplerState sampler;
+    texunit::LaneCoordinates at;
+};
+
+struct ExplainedTriangle {
+    uint32_t id = 0;         ///< in scene order
+    uint32_t instance = 0;   ///< in Scene::instances
+    uint32_t primitive = 0;  ///< triangle of the instance's mesh
+    const shading::Mesh* mesh = nullptr;
+    uint32_t material_index = 0;
+    const shading::Material* material = nullptr;
+    bool front = true;  ///< whether the front face is seen
+};
+
+/// Whether a MASK or BLEND surface covers a sample: alpha at least the cutoff, or above a random number.
+struct AlphaVerdict {
+    float alpha = 0;
+    float threshold = 0;          ///< cutoff of a MASK, number of a BLEND surface
+    uint32_t random_surface = 0;  ///< of a BLEND surface: the surface in the number's address (texunit/random.h)
+    bool covers = false;
+};
+
+/// A MASK or BLEND surface before what is seen, which lets it through.
+struct ExplainedCandidate {
+    ExplainedTriangle triangle;
+    float depth = 0;  ///< raster::TileVisibility: 1 near .. 0 far
+    AlphaVerdict verdict;
+    std::optional<ExplainedLookup> lookup;  ///< of the base colour
+};
+
+/// Of a lit material; an unlit one has a base colour and no more.
+struct ExplainedReflection {
+    float metallic = 0, roughness = 0, occlusion = 1;
+    glm::vec3 emission{0.0f};
+    std::vector<shading::LightTerm> light;  ///< adds up to the radiance
+};
+
+/// What is seen.
+struct ExplainedSurface {
+    ExplainedTriangle triangle;
+    std::optional<AlphaVerdict> verdict;  ///< of MASK and BLEND
+    glm::vec3 barycentrics{0.0f};
+    glm::vec3 position{0.0f};  ///< world, metres
+    float distance = 0;        ///< along the view axis, metres
+    glm::vec3 normal{0.0f}, geometric_normal{0.0f};
+    std::optional<glm::vec4> vertex_color;
+    glm::vec3 base_color{0.0f};
+    std::vector<ExplainedLookup> lookups;  ///< in the order of the maps
+    std::optional<ExplainedReflection> reflection;
+};
+
+struct ExplainedSample {
+    uint32_t sample = 0;
+    raster::SampleOffset offset;
+    shading::SequenceShift shift;                 ///< the random part of the offset, the same for all samples
+    std::vector<ExplainedCandidate> let_through;  ///< the nearest first
+    std::optional<ExplainedSurface> surface;      ///< nullopt: the background
+    glm::vec3 radiance{0.0f};
+};
+
+/// What is asked about.
+struct ExplainedPixel {
+    std::string scene, camera;  ///< as given; options that choose the same camera
+    int width = 0, height = 0;  ///< of the frame
+    int x = 0, y = 0;
+    int spp = 1;
+    shading::PixelFilter pixel_filter = shading::PixelFilter::Box;
+    shading::PixelJitter pixel_jitter = shading::PixelJitter::Frame;
+    uint32_t seed = 0;
+};
+
+/// Where all samples lead.
+struct ExplainedMean {
+    glm::vec3 mean{0.0f};            ///< of the samples' radiance, as shading::SampleTree adds them
+    glm::vec3 rendered{0.0f};        ///< the pixel of a plain render
+    std::array<uint8_t, 3> codes{};  ///< that files of 8 bits hold
+    std::string display;             ///< the options that made them
+};
+
+/// Whether both have the same bits.
+bool same_bits(const glm::vec3& a, const glm::vec3& b);
+
+/// "base colour", "metallic and roughness", "normal", "occlusion", "emission".
+std::string_view name_of(shading::MapSlot slot);
+
+}  // namespace rawtexel::cli

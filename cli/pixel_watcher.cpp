@@ -1,0 +1,158 @@
+#include "cli/pixel_watcher.h"
+
+#include "texunit/random.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace rawtexel::cli {
+namespace {
+
+using shading::AlphaMode;
+using shading::DrawState;
+using shading::MapState;
+using texunit::WaveCoordinates;
+
+glm::vec3 at_lane(const shading::WaveVector& wave, int lane) { return {wave.x[lane], wave.y[lane], wave.z[lane]}; }
+
+ExplainedTriangle explain_triangle(const DrawState& draw, const raster::SetupTriangle& triangle) {
+    return {.id = triangle.triangle_id,
+            .instance = triangle.draw,
+            .primitive = triangle.primitive,
+            .mesh = draw.mesh,
+            .material_index = draw.material->index,
+            .material = draw.material->material,
+            .front = triangle.front_facing};
+}
+
+ExplainedLookup explain_lookup(shading::MapSlot slot, const MapState& map, const WaveCoordinates& at, int lane) {
+    return {slot, map.texture, map.sampler, {at.u[lane], at.v[lane], at.dudx[lane], at.dvdx[lane], at.dudy[lane], at.dvdy[lane]}};
+}
+
+std::vector<ExplainedLookup> explain_lookups(const shading::ShadedFragments& fragments, int lane) {
+    std::vector<ExplainedLookup> lookups;
+    for (int slot = 0; slot < shading::kMapSlots; ++slot) {
+        const MapState& map = fragments.draw->material->maps[size_t(slot)];
+        if (!map.texture) continue;
+        lookups.push_back(explain_lookup(shading::MapSlot(slot), map, fragments.fragment->coordinates[map.coordinates], lane));
+    }
+    return lookups;
+}
+
+ExplainedReflection explain_reflection(const shading::Lighting& lighting, const shading::SurfaceWave& surface, int lane) {
+    return {.metallic = surface.metallic[lane],
+            .roughness = surface.roughness[lane],
+            .occlusion = surface.occlusion[lane],
+            .emission = at_lane(surface.emission, lane),
+            .light = light_terms(lighting, surface, lane)};
+}
+
+std::optional<glm::vec4> vertex_color(const shading::ShadedFragments& fragments, int lane) {
+    if (fragments.draw->mesh->colors.empty()) return std::nullopt;
+    const texunit::WaveColor& color = fragments.fragment->color;
+    return glm::vec4(color.channel[0][lane], color.channel[1][lane], color.channel[2][lane], color.channel[3][lane]);
+}
+
+}  // namespace
+
+PixelWatcher::PixelWatcher(int x, int y, const shading::RenderOptions& options, const shading::Lighting& lighting)
+    : x_(x),
+      y_(y),
+      pixel_filter_(options.pixel_filter),
+      pixel_jitter_(options.pixel_jitter),
+      seed_(options.seed),
+      rays_(make_view_rays(options.camera, options.width, options.height)),
+      lighting_(lighting) {}
+
+int PixelWatcher::lane_of(const shading::WatchedBlock& block) const {
+    const int column = x_ - block.x, row = y_ - block.y;
+    if (column < 0 || column >= texunit::kWaveWidth || row < 0 || row >= texunit::kWaveHeight) return -1;
+    const int lane = row * texunit::kWaveWidth + column;
+    return (block.lanes >> lane & 1) != 0 ? lane : -1;
+}
+
+AlphaVerdict PixelWatcher::verdict(const shading::JudgedFragments& fragments, int lane) const {
+    const shading::Material& material = *fragments.draw->material->material;
+    AlphaVerdict verdict{.alpha = (*fragments.alpha)[lane], .covers = (fragments.covered >> lane & 1) != 0};
+    if (material.alpha_mode == AlphaMode::Mask) {
+        verdict.threshold = material.alpha_cutoff;
+    } else {
+        verdict.random_surface = 1 + fragments.triangle->triangle_id;
+        verdict.threshold = texunit::random_float({.x = uint32_t(x_),
+                                                   .y = uint32_t(y_),
+                                                   .sample = fragments.block.sample,
+                                                   .surface = verdict.random_surface,
+                                                   .dimension = texunit::Dimension::Coverage,
+                                                   .seed = seed_});
+    }
+    return verdict;
+}
+
+void PixelWatcher::judged(const shading::JudgedFragments& fragments) {
+    const int lane = lane_of(fragments.block);
+    if (lane < 0) return;
+    ExplainedCandidate candidate{.triangle = explain_triangle(*fragments.draw, *fragments.triangle),
+                                 .depth = fragments.depth[lane],
+                                 .verdict = verdict(fragments, lane),
+                                 .lookup = {}};
+    const MapState& map = fragments.draw->material->maps[shading::kBaseColor];
+    if (map.texture) candidate.lookup = explain_lookup(shading::kBaseColor, map, *fragments.base_color, lane);
+    judged_.push_back({fragments.setup_index, std::move(candidate)});
+}
+
+void PixelWatcher::shaded(const shading::ShadedFragments& fragments) {
+    const int lane = lane_of(fragments.block);
+    if (lane < 0) return;
+    const uint32_t setup_index = fragments.setup_index[lane];
+    const float b1 = fragments.weights->b1[lane], b2 = fragments.weights->b2[lane];
+    const glm::vec3 position = at_lane(fragments.fragment->position, lane);
+    const shading::SurfaceWave& surface = *fragments.surface;
+    surface_ = ExplainedSurface{
+        .triangle = explain_triangle(*fragments.draw, fragments.frame->triangle(setup_index)),
+        .verdict = {},
+        .barycentrics = {1.0f - b1 - b2, b1, b2},
+        .position = position,
+        .distance = glm::dot(position - rays_.eye, rays_.forward),
+        .normal = at_lane(surface.normal, lane),
+        .geometric_normal = at_lane(surface.geometric_normal, lane),
+        .vertex_color = vertex_color(fragments, lane),
+        .base_color = at_lane(surface.base_color, lane),
+        .lookups = explain_lookups(fragments, lane),
+        .reflection = {},
+    };
+    if (!surface_->triangle.material->unlit) surface_->reflection = explain_reflection(lighting_, surface, lane);
+    const auto asked = std::ranges::find(judged_, setup_index, &Judged::setup_index);
+    if (asked != judged_.end()) surface_->verdict = asked->candidate.verdict;
+}
+
+std::vector<ExplainedCandidate> PixelWatcher::take_let_through(float depth) {
+    std::vector<ExplainedCandidate> let_through;
+    for (Judged& judged : std::exchange(judged_, {})) {
+        const ExplainedCandidate& candidate = judged.candidate;
+        const bool tied_before = candidate.depth == depth && surface_ && candidate.triangle.id < surface_->triangle.id;
+        const bool before = !surface_ || candidate.depth > depth || tied_before;
+        if (before && !candidate.verdict.covers) let_through.push_back(std::move(judged.candidate));
+    }
+    // As raster::tile_visibility orders them.
+    std::ranges::stable_sort(let_through, [](const ExplainedCandidate& a, const ExplainedCandidate& b) {
+        return a.depth != b.depth ? a.depth > b.depth : a.triangle.id < b.triangle.id;
+    });
+    return let_through;
+}
+
+void PixelWatcher::sampled(const shading::SampledPixels& pixels) {
+    const int lane = lane_of(pixels.block);
+    if (lane < 0) return;
+    const shading::SequenceShift shift = shading::sequence_shift(pixel_jitter_, uint32_t(x_), uint32_t(y_), seed_);
+    ExplainedSample& sample = samples_.emplace_back();
+    sample.sample = pixels.block.sample;
+    sample.shift = shift;
+    sample.offset = shading::sample_offset(pixel_filter_, pixel_jitter_, sample.sample, shift);
+    sample.let_through = take_let_through(pixels.depth[lane]);
+    sample.surface = std::exchange(surface_, std::nullopt);
+    sample.radiance = {(*pixels.radiance[0])[lane], (*pixels.radiance[1])[lane], (*pixels.radiance[2])[lane]};
+}
+
+std::vector<ExplainedSample> PixelWatcher::take() { return std::exchange(samples_, {}); }
+
+}  // namespace rawtexel::cli

@@ -1,0 +1,48 @@
+// Writes down everything that happens at one pixel while it is rendered.
+#pragma once
+
+#include "cli/pixel_explanation.h"
+#include "shading/fragment_listener.h"
+#include "shading/render.h"
+#include "shading/view_rays.h"
+
+#include <vector>
+
+namespace rawtexel::cli {
+
+class PixelWatcher final : public shading::FragmentListener {
+  public:
+    /// Of pixel (x, y) of the frame that `options` describe. `lighting` is that of the frame and outlives the watcher.
+    PixelWatcher(int x, int y, const shading::RenderOptions& options, const shading::Lighting& lighting);
+
+    void judged(const shading::JudgedFragments& fragments) override;
+    void shaded(const shading::ShadedFragments& fragments) override;
+    void sampled(const shading::SampledPixels& pixels) override;
+
+    /// The samples seen since it was asked last, in their order.
+    std::vector<ExplainedSample> take();
+
+  private:
+    struct Judged {
+        uint32_t setup_index;
+        ExplainedCandidate candidate;
+    };
+    /// The pixel's lane, -1 where it is not among the block's.
+    int lane_of(const shading::WatchedBlock& block) const;
+    AlphaVerdict verdict(const shading::JudgedFragments& fragments, int lane) const;
+    /// Takes those of judged_ that let through what is seen at `depth`.
+    std::vector<ExplainedCandidate> take_let_through(float depth);
+
+    int x_, y_;
+    shading::PixelFilter pixel_filter_;
+    shading::PixelJitter pixel_jitter_;
+    uint32_t seed_;
+    shading::ViewRays rays_;
+    const shading::Lighting& lighting_;
+    // Of the sample at hand.
+    std::vector<Judged> judged_;
+    std::optional<ExplainedSurface> surface_;
+    std::vector<ExplainedSample> samples_;
+};
+
+}  // namespace rawtexel::cli

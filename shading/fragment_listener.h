@@ -1,0 +1,62 @@
+// Who watches fragments being made: explanations of a pixel. Counters listen to lookups instead (shading/lookup_listener.h).
+#pragma once
+
+#include "raster/frame.h"
+#include "raster/interpolate.h"
+#include "shading/draw_state.h"
+#include "shading/fragment.h"
+#include "shading/surface.h"
+
+#include <cstdint>
+
+namespace rawtexel::shading {
+
+/// The block of 8x4 pixels and the sample that something happens at.
+struct WatchedBlock {
+    int x = 0, y = 0;  ///< upper left pixel, in the frame
+    uint32_t sample = 0;
+    WaveMask lanes = 0;  ///< of those below, other lanes hold anything
+};
+
+/// A MASK or BLEND triangle that was asked whether it covers, where it lies before all that was drawn so far.
+struct JudgedFragments {
+    WatchedBlock block;
+    const DrawState* draw = nullptr;
+    const raster::SetupTriangle* triangle = nullptr;
+    uint32_t setup_index = 0;
+    WaveMask covered = 0;          ///< lanes that cover
+    const float* depth = nullptr;  ///< 32, of raster::TileVisibility
+    const WaveFloat* alpha = nullptr;
+    const texunit::WaveCoordinates* base_color = nullptr;  ///< where its map was looked up, where it has one
+};
+
+/// Surfaces of one draw that are seen, each lane on its own triangle, shaded.
+struct ShadedFragments {
+    WatchedBlock block;
+    const DrawState* draw = nullptr;
+    const raster::Frame* frame = nullptr;
+    const uint32_t* setup_index = nullptr;  ///< 32, of raster::Frame::triangle
+    const raster::BarycentricWave* weights = nullptr;
+    const FragmentWave* fragment = nullptr;
+    const texunit::WaveColor* maps = nullptr;  ///< kMapSlots, of those with a texture
+    const SurfaceWave* surface = nullptr;      ///< of an unlit material the base colour and the normals alone
+};
+
+/// What a block's pixels got for one sample.
+struct SampledPixels {
+    WatchedBlock block;
+    const WaveFloat* radiance[3] = {};
+    const float* depth = nullptr;  ///< 32, of raster::TileVisibility
+};
+
+/// Of a sample of a tile it hears first of all that was judged, in the order in which it was drawn; then block by block of surfaces and,
+/// after them, of the pixels.
+class FragmentListener {
+  public:
+    virtual ~FragmentListener() = default;
+    virtual void judged(const JudgedFragments& fragments) = 0;
+    virtual void shaded(const ShadedFragments& fragments) = 0;
+    virtual void sampled(const SampledPixels& pixels) = 0;
+};
+
+}  // namespace rawtexel::shading
