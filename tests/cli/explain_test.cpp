@@ -38,7 +38,7 @@ std::vector<uint8_t> noise_texels(int extent) {
 }
 
 constexpr const char* kStackJson = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
-"nodes": [{"mesh": 0}, {"mesh": 1, "translation": [0.2, 0.1, 0.6]}, {"mesh": 2, "translation": [0, -0.3, 0.3]}],
+"nodes": [{"mesh": 0}, {"mesh": 1, "translation": [0.2, 0.1, 0.6]}, {"mesh": 2, "translation": [0, -0.3, 0.9]}],
 "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 0}]},
            {"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 1}]},
            {"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 2}]}],
@@ -57,7 +57,7 @@ constexpr const char* kStackJson = R"({"asset": {"version": "2.0"}, "scene": 0, 
               {"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC2"},
               {"bufferView": 3, "componentType": 5123, "count": 6, "type": "SCALAR"}]})";
 
-/// From the front a MASK quad, a BLEND quad without light and a lit opaque one, before nothing: FOLDER/stack.gltf.
+/// From the front a BLEND quad without light, a MASK quad and a lit opaque one, before nothing: FOLDER/stack.gltf.
 std::string write_stack(const TemporaryFolder& folder) {
     test::write_quad(folder);
     scenes::write_8bit(folder / "noise.png", 32, 32, 4, noise_texels(32), {});
