@@ -11,6 +11,11 @@ constexpr float kTentVariance = 1.0f / 6;  ///< pixels^2, of a tent two pixels w
 constexpr NumberRange kVariance{1e-3f, 4.0f};
 constexpr NumberRange kBias{-16.0f, 16.0f};  ///< levels, as far as Vulkan implementations go
 
+/// The ellipse takes no probes.
+void check_one_filter(const shading::FootprintOptions& footprint) {
+    if (footprint.probes && footprint.ellipse > 0) throw UsageError("--aniso and --ewa exclude each other: probes, or the exact ellipse");
+}
+
 }  // namespace
 
 void parse_anisotropy(std::string_view text, shading::FootprintOptions& footprint) {
@@ -37,9 +42,15 @@ void declare_lod_options(CommandLine& line, shading::FootprintOptions& footprint
                 "anisotropic probes, 1 to 64 at most; with S2 probes and level together have the covariance of a pixel filter of that "
                 "variance, " +
                     print(kVariance) + " (default: what the scene says)",
-                [&](const std::string& text) { parse_anisotropy(text, footprint); });
+                [&](const std::string& text) {
+                    parse_anisotropy(text, footprint);
+                    check_one_filter(footprint);
+                });
     line.flag_with_value("--ewa", "S2", "the exact elliptical Gaussian of covariance S2*J*J^T + I/6 over level 0 (S2 1/6) instead",
-                         [&](const std::string& text) { footprint.ellipse = parse_ellipse(text); });
+                         [&](const std::string& text) {
+                             footprint.ellipse = parse_ellipse(text);
+                             check_one_filter(footprint);
+                         });
     line.option("--lod-rule", "d3d|exact", "ratio and axes from the two derivatives (the default), or by singular values",
                 [&](const std::string& text) {
                     footprint.lod_rule = parse_choice("--lod-rule", text, {texunit::LodRule::D3d, texunit::LodRule::Exact});

@@ -14,10 +14,10 @@ void declare_lod_options(CommandLine& line, shading::FootprintOptions& footprint
 /// The same, with --derivatives and --footprint: where a frame's derivatives come from.
 void declare_footprint_options(CommandLine& line, shading::FootprintOptions& footprint);
 
-/// N or N:S2, 1 <= N <= 64, 0 < S2 <= 4.
+/// N or N:S2, 1 <= N <= 64, 0.001 <= S2 <= 4.
 void parse_anisotropy(std::string_view text, shading::FootprintOptions& footprint);
 std::string print_anisotropy(const shading::FootprintOptions& footprint);
-/// S2, or 1/6 for no text.
+/// S2 in the same range, or 1/6 for no text.
 float parse_ellipse(std::string_view text);
 /// "none", or S2.
 std::string print_ellipse(float ellipse);

@@ -2,7 +2,7 @@
 
 #include "scenes/spelling.h"
 
-#include <array>
+#include <vector>
 
 namespace rawtexel::cli {
 namespace {
@@ -24,7 +24,7 @@ std::vector<uint8_t> display_codes(const shading::RenderResult& frame, const Ton
 
 void check_image_format(std::string_view option, const std::string& path) {
     if (scenes::is_writable_format(path)) return;
-    const std::array<std::string, 9> common{"png", "jpg", "exr", "hdr", "tif", "bmp", "tga", "pfm", "webp"};
+    const std::vector<std::string> common(kCommonImageFormats.begin(), kCommonImageFormats.end());
     const std::string extension = scenes::extension_of(path);
     const std::string found = extension.empty() ? "has no extension" : "has the unknown extension '." + extension + "'";
     const std::string nearest = extension.empty() ? "png" : scenes::nearest_spelling(extension, common);

@@ -6,10 +6,14 @@
 #include "shading/display.h"
 #include "shading/render.h"
 
+#include <array>
 #include <string>
 #include <string_view>
 
 namespace rawtexel::cli {
+
+/// The image formats that are suggested, by extension: some that can be written.
+inline constexpr std::array<std::string_view, 8> kCommonImageFormats{"png", "jpg", "exr", "hdr", "tif", "bmp", "tga", "webp"};
 
 /// Throws UsageError when the extension names no image format that can be written, with the nearest that can.
 void check_image_format(std::string_view option, const std::string& path);

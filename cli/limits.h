@@ -5,6 +5,7 @@ namespace rawtexel::cli {
 
 inline constexpr int kMaxImageExtent = 16384;  // pixels
 inline constexpr int kMaxSamples = 1 << 20;    // per pixel
+inline constexpr int kMaxLayer = 1 << 20;      // of an array of textures, counted from 0
 inline constexpr int kMaxThreads = 1024, kMaxRepeats = 100000;
 
 inline constexpr float kMaxLength = 1e15f;                     // metres: squares stay in single precision

@@ -24,6 +24,12 @@ std::array<float, 3> take(const std::vector<float>& numbers, size_t first, size_
     return taken;
 }
 
+/// Throws UsageError for a direction without length.
+void check_place(std::string_view where, const std::array<float, 3>& at, CoordinateKind kind) {
+    if (kind == CoordinateKind::Direction && at == std::array<float, 3>{})
+        throw UsageError(std::string(where) + ": 0,0,0 is no direction (allowed: any other)");
+}
+
 LookupPlace parse_place(const std::string& where, const std::vector<std::string>& words, CoordinateKind kind) {
     const size_t n = components(kind);
     if (words.size() != n && words.size() != 3 * n)
@@ -32,6 +38,7 @@ LookupPlace parse_place(const std::string& where, const std::vector<std::string>
     std::vector<float> numbers;
     for (const std::string& word : words) numbers.push_back(parse_number(where, scenes::shortened(word)));
     LookupPlace place{.at = take(numbers, 0, n), .derivatives = {}};
+    check_place(where, place.at, kind);
     if (numbers.size() > n) place.derivatives = Derivatives{take(numbers, n, n), take(numbers, 2 * n, n)};
     return place;
 }
@@ -60,6 +67,12 @@ LookupPlace place_of(const texunit::LaneCoordinates& at) {
 std::array<float, 3> parse_components(std::string_view option, std::string_view text, CoordinateKind kind) {
     const size_t n = components(kind);
     return take(parse_numbers(option, text, form_of(kind), n, n), 0, n);
+}
+
+std::array<float, 3> parse_coordinates(std::string_view option, std::string_view text, CoordinateKind kind) {
+    const std::array<float, 3> at = parse_components(option, text, kind);
+    check_place(option, at, kind);
+    return at;
 }
 
 std::vector<LookupPlace> read_places(const std::string& path, CoordinateKind kind) {

@@ -35,6 +35,9 @@ LookupPlace place_of(const texunit::LaneCoordinates& at);
 /// "U,V" or however many components `kind` has; any finite numbers. Throws UsageError naming `option`.
 std::array<float, 3> parse_components(std::string_view option, std::string_view text, CoordinateKind kind);
 
+/// The same for a place itself: 0,0,0 is no direction.
+std::array<float, 3> parse_coordinates(std::string_view option, std::string_view text, CoordinateKind kind);
+
 /// One lookup a line: the coordinates, and optionally the derivatives to the right and down, separated by blanks; empty lines are left out.
 /// Throws scenes::InputError "FILE: line N: …".
 std::vector<LookupPlace> read_places(const std::string& path, CoordinateKind kind);

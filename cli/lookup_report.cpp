@@ -20,12 +20,10 @@ using texunit::SamplerState;
 using texunit::Shape;
 using texunit::TracedTap;
 
-constexpr int kFaces = 6;  ///< of a cube
-
 /// What a tap's slice is called in a texture of this shape: nothing in a flat one.
 std::vector<std::pair<std::string, int>> slice_names(const Shape& shape, int slice) {
     if (shape.depth > 1) return {{"z", slice}};
-    if (shape.cube && shape.layers > kFaces) return {{"layer", slice / kFaces}, {"face", slice % kFaces}};
+    if (shape.cube && shape.cubes() > 1) return {{"layer", slice / shape.faces()}, {"face", slice % shape.faces()}};
     if (shape.cube) return {{"face", slice}};
     if (shape.layers > 1) return {{"layer", slice}};
     return {};
@@ -52,8 +50,9 @@ std::string figure(double value) { return right_aligned(print_figure(value), kFi
 std::string describe_texture(const texunit::Texture& texture) {
     const Shape& shape = texture.shape();
     std::string text = texture.name() + ": " + std::string(texunit::info(texture.format()).name) + ", " + print_extents(shape, 0);
-    if (shape.cube) text += shape.layers > kFaces ? ", " + std::to_string(shape.layers / kFaces) + " cube maps" : ", cube map";
+    if (shape.cube) text += shape.cubes() > 1 ? ", " + std::to_string(shape.cubes()) + " cube maps" : ", cube map";
     if (!shape.cube && shape.layers > 1) text += ", " + std::to_string(shape.layers) + " layers";
+    if (shape.levels == 1) return text + ", 1 level\n";
     return text + ", " + std::to_string(shape.levels) + " levels, " + std::to_string(texture.source_levels()) + " of them in the file\n";
 }
 

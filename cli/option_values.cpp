@@ -49,6 +49,15 @@ int64_t parse_integer(std::string_view option, std::string_view text, int64_t lo
     return value;
 }
 
+uint64_t parse_bytes(std::string_view option, std::string_view text) {
+    constexpr std::string_view kUnits = "KMG";
+    constexpr int64_t kMost = int64_t{1} << 40;
+    const size_t unit = text.empty() ? std::string_view::npos : kUnits.find(text.back());
+    if (unit == std::string_view::npos) return uint64_t(parse_integer(option, text, 1, kMost));
+    const int shift = 10 * (int(unit) + 1);
+    return uint64_t(parse_integer(option, text.substr(0, text.size() - 1), 1, kMost >> shift)) << shift;
+}
+
 std::string print(const NumberRange& range) {
     const NumberRange all;
     if (range.lowest == all.lowest && range.highest == all.highest) return "any number";

@@ -24,6 +24,8 @@ std::string print(const NumberRange& range);
 
 /// The readers take the whole text or throw UsageError "OPTION: 'TEXT' is not … (what is allowed)".
 int64_t parse_integer(std::string_view option, std::string_view text, int64_t lowest, int64_t highest);
+/// A number of bytes, at least 1: digits and optionally K, M or G for 2^10, 2^20 or 2^30 of them.
+uint64_t parse_bytes(std::string_view option, std::string_view text);
 /// Finite and in range; throws UsageError otherwise, as all below.
 float parse_number(std::string_view option, std::string_view text, const NumberRange& range = {});
 /// `form` such as "X,Y,Z[,I]" is for the message; between `least` and `most` numbers separated by commas, each in range.

@@ -1,6 +1,7 @@
 #include "cli/sample_request.h"
 
 #include "cli/footprint_options.h"
+#include "cli/limits.h"
 #include "cli/option_values.h"
 #include "cli/word_list.h"
 #include "scenes/load.h"
@@ -14,7 +15,6 @@ namespace {
 using texunit::Wrap;
 
 constexpr NumberRange kLod{-1000.0f, 1000.0f};  ///< levels
-constexpr int kMostLayers = 1 << 20;
 
 void declare_coordinates(CommandLine& line, SampleRequest& request, CoordinateKind kind, const std::string& help) {
     const std::string option(option_of(kind));
@@ -27,7 +27,7 @@ void declare_coordinates(CommandLine& line, SampleRequest& request, CoordinateKi
         if (text.starts_with('@'))
             coordinates.file = text.substr(1);
         else
-            coordinates.place.at = parse_components(option, text, kind);
+            coordinates.place.at = parse_coordinates(option, text, kind);
     });
 }
 
@@ -43,7 +43,7 @@ void declare_place(CommandLine& line, SampleRequest& request) {
     line.option("--lod", "L", "this level of detail, without derivatives, " + print(kLod),
                 [&](const std::string& text) { request.lod = parse_number("--lod", text, kLod); });
     line.option("--layer", "N", "of an array, or cube of an array of cubes (default 0)",
-                [&](const std::string& text) { request.layer = int(parse_integer("--layer", text, 0, kMostLayers)); });
+                [&](const std::string& text) { request.layer = int(parse_integer("--layer", text, 0, kMaxLayer)); });
 }
 
 void declare_sampler(CommandLine& line, SampleRequest& request) {
@@ -54,7 +54,7 @@ void declare_sampler(CommandLine& line, SampleRequest& request) {
                 [&](const std::string& text) { request.wraps = parse_wraps(text); });
     line.option("--border", "R,G,B,A", "the linear colour of --wrap border (default 0,0,0,0)", [&](const std::string& text) {
         const std::vector<float> colour = parse_numbers("--border", text, "R,G,B,A", 4, 4);
-        std::ranges::copy(colour, request.border.begin());
+        std::ranges::copy(colour, request.border.emplace().begin());
     });
     declare_color_space(line, request.color_space);
     line.group("Footprint");
@@ -70,6 +70,8 @@ void check_exclusions(const SampleRequest& request) {
         throw UsageError(request.ddx.empty() ? "--ddy without --ddx (both, or neither)" : "--ddx without --ddy (both, or neither)");
     if (!request.lod) return;
     if (!request.ddx.empty()) throw UsageError("--lod and --ddx exclude each other");
+    if (request.lookup.footprint.probes)
+        throw UsageError("--lod and --aniso exclude each other: probes lie along the longer of the derivatives");
     if (request.lookup.footprint.ellipse > 0)
         throw UsageError("--lod and --ewa exclude each other: the ellipse is that of the derivatives");
 }
@@ -113,17 +115,15 @@ texunit::SamplerState make_sampler(const SampleRequest& request) {
     const LookupOptions& lookup = request.lookup;
     shading::override_sampler({.filter = lookup.filter, .mip = lookup.mip, .footprint = lookup.footprint, .precision = lookup.precision},
                               sampler);
-    sampler.wrap_s = request.wraps[0], sampler.wrap_t = request.wraps[1], sampler.wrap_r = request.wraps[2];
-    sampler.border = request.border;
+    const std::array<Wrap, 3> wraps = request.wraps.value_or(std::array{sampler.wrap_s, sampler.wrap_t, sampler.wrap_r});
+    sampler.wrap_s = wraps[0], sampler.wrap_t = wraps[1], sampler.wrap_r = wraps[2];
+    sampler.border = request.border.value_or(sampler.border);
     sampler.min_lod = request.min_lod.value_or(sampler.min_lod);
     sampler.max_lod = request.max_lod.value_or(sampler.max_lod);
     if (!request.lod) return sampler;
     const float biased = *request.lod + sampler.lod_bias;
     sampler.min_lod = sampler.max_lod = std::max(std::min(biased, sampler.max_lod), sampler.min_lod);
     sampler.lod_bias = 0;
-    // Without derivatives there is no axis to lay probes along.
-    sampler.probes = 1;
-    sampler.probe_variance = 0;
     return sampler;
 }
 

@@ -25,8 +25,8 @@ struct SampleRequest {
     std::optional<float> lod;  ///< instead of derivatives
     int layer = 0;             ///< of an array, or cube of an array of cubes
     LookupOptions lookup;
-    std::array<texunit::Wrap, 3> wraps{};
-    std::array<float, 4> border{};
+    std::optional<std::array<texunit::Wrap, 3>> wraps;  ///< unset: repeat; cube maps have none
+    std::optional<std::array<float, 4>> border;         ///< unset: 0
     std::optional<float> min_lod, max_lod;
     std::optional<ColorSpace> color_space;
 };

@@ -21,6 +21,12 @@ bool is_unsigned_fraction(Format format) {
     return layout.storage != texunit::StorageClass::Half4 && layout.storage != texunit::StorageClass::Float4 && !layout.is_signed;
 }
 
+/// Radiance HDR shares one exponent among three channels without a sign.
+bool holds_negative_values(const std::string& path) {
+    const std::string extension = scenes::extension_of(path);
+    return scenes::is_float_format(path) && extension != "hdr" && extension != "rgbe";
+}
+
 bool has_16_bit_codes(Format format) { return format == Format::R16Unorm || format == Format::RG16Unorm || format == Format::RGBA16Unorm; }
 
 /// Images of two channels are grey and alpha, so red and green take three.
@@ -75,9 +81,16 @@ shading::Image linear_image(Texture& texture, int level, int slice) {
 }  // namespace
 
 void check_holds_texels(std::string_view option, const std::string& path, Format format) {
-    if (scenes::is_float_format(path) || is_unsigned_fraction(format)) return;
+    if (holds_negative_values(path) || is_unsigned_fraction(format)) return;
     throw UsageError(std::string(option) + ": '" + path + "' cannot hold the texels, which are " + std::string(texunit::info(format).name) +
                      "; a format that can is '.exr'");
+}
+
+bool loses_alpha(const std::string& path, Texture& texture, int level, int slice) {
+    if (image_channels(texture.format()) < 4 || scenes::stores_alpha(path)) return false;
+    bool opaque = true;
+    for_each_value(texture, level, slice, [&](float value, size_t channel) { opaque &= channel < 3 || value == 1.0f; });
+    return !opaque;
 }
 
 void write_slice(const std::string& path, Texture& texture, int level, int slice, const scenes::Metadata& metadata) {

@@ -10,8 +10,6 @@ namespace {
 using texunit::Shape;
 using Json = nlohmann::ordered_json;
 
-int faces_of(const Shape& shape) { return shape.cube ? 6 : 1; }
-
 int full_levels(const Shape& shape) { return texunit::full_level_count(shape.width, shape.height, shape.depth); }
 
 bool holds_floats(texunit::Format format) {
@@ -20,7 +18,7 @@ bool holds_floats(texunit::Format format) {
 }
 
 std::string describe_shape(const Shape& shape) {
-    const int layers = shape.layers / faces_of(shape);
+    const int layers = shape.cubes();
     std::string text = print_extents(shape, 0);
     if (shape.depth > 1) text += ", a volume";
     if (shape.cube) text += ", a cube map of 6 faces";
@@ -90,8 +88,8 @@ std::string texture_info_json(const TextureInfo& info) {
                     {"width", shape.width},
                     {"height", shape.height},
                     {"depth", shape.depth},
-                    {"layers", shape.layers / faces_of(shape)},
-                    {"faces", faces_of(shape)},
+                    {"layers", shape.cubes()},
+                    {"faces", shape.faces()},
                     {"levels", shape.levels},
                     {"levels_full", full_levels(shape)},
                     {"file_bytes", info.file_bytes},

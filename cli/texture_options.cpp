@@ -18,13 +18,4 @@ void declare_texture_options(CommandLine& line, texunit::ContainerOptions& optio
                 [&](const std::string& text) { options.max_texture_bytes = parse_bytes("--max-texture-bytes", text); });
 }
 
-uint64_t parse_bytes(std::string_view option, std::string_view text) {
-    constexpr std::string_view kUnits = "KMG";
-    constexpr int64_t kMost = int64_t{1} << 40;
-    const size_t unit = text.empty() ? std::string_view::npos : kUnits.find(text.back());
-    if (unit == std::string_view::npos) return uint64_t(parse_integer(option, text, 1, kMost));
-    const int shift = 10 * (int(unit) + 1);
-    return uint64_t(parse_integer(option, text.substr(0, text.size() - 1), 1, kMost >> shift)) << shift;
-}
-
 }  // namespace rawtexel::cli

@@ -152,4 +152,6 @@ bool is_float_format(const std::string& path) {
 
 bool is_writable_format(const std::string& path) { return can_encode(path); }
 
+bool stores_alpha(const std::string& path) { return can_encode_alpha(path); }
+
 }  // namespace rawtexel::scenes

@@ -59,9 +59,11 @@ std::vector<std::byte> encode_png(int width, int height, int channels, int bits,
 
 /// The lower-case extension without its dot; empty when there is none.
 std::string extension_of(std::string_view path);
-/// True when the extension names a format that stores floats (.exr .hdr .pfm .tif …).
+/// True when the extension names a format that stores floats: .exr .hdr .rgbe .tif .tiff, and .pfm, which can only be read.
 bool is_float_format(const std::string& path);
 /// True when OpenImageIO can write the extension.
 bool is_writable_format(const std::string& path);
+/// True when alpha is written into files of the extension; it is left out of others.
+bool stores_alpha(const std::string& path);
 
 }  // namespace rawtexel::scenes

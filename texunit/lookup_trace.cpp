@@ -99,7 +99,7 @@ LookupTrace trace_cube_lookup(Texture& texture, const SamplerState& sampler, con
     WaveFloat cubes{};
     cubes[0] = cube;
     return trace(texture, sampler, [&](LookupExtras extras, WaveColor& colour) {
-        if (texture.shape().layers > 6) extras.layer = &cubes;
+        if (texture.shape().cubes() > 1) extras.layer = &cubes;
         sample_cube_wave(texture, sampler, spread(direction), kFirstLane, colour, extras);
     });
 }

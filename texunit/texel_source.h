@@ -23,6 +23,10 @@ struct Shape {
     int levels = 1;                        ///< of the full pyramid down to 1x1x1 unless the source says otherwise
     bool cube = false;
 
+    constexpr int faces() const { return cube ? 6 : 1; }
+    /// Members of the array: whole cubes of cube maps, layers of other textures.
+    constexpr int cubes() const { return layers / faces(); }
+
     bool operator==(const Shape&) const = default;
 };
 

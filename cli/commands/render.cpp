@@ -39,7 +39,7 @@ void print_fetches(std::ostream& out, const shading::RenderResult& result) {
     const texunit::FetchCounts fetches = result.fetches->total();
     out << "Fetches: " << fetches.lookups << " lookups, " << fetches.taps << " taps, " << fetches.texels_requested << " texels";
     if (result.samples_shaded > 0)
-        out << " (" << print_quantity(double(fetches.texels_requested) / double(result.samples_shaded)) << "per shaded sample)";
+        out << " (" << print_quantity(double(fetches.texels_requested) / double(result.samples_shaded)) << "texels per shaded sample)";
     out << '\n';
 }
 
@@ -48,7 +48,7 @@ class RenderCommand : public Command {
     std::string_view name() const override { return "render"; }
     std::string_view usage() const override { return "render SCENE -o FILE [options]"; }
     std::string_view summary() const override {
-        return "Renders a scene to an image whose format follows the extension: .exr .hdr .pfm .tif hold linear radiance in floats; "
+        return "Renders a scene to an image whose format follows the extension: .exr .hdr .tif hold linear radiance in floats; "
                ".png .jpg and the like get exposure, tone map and transfer in 8 bits.";
     }
 

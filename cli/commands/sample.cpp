@@ -34,7 +34,9 @@ void check_shape(const std::string& name, const Shape& shape, const SampleReques
     if (needed != CoordinateKind::Uv && (sampler.probes > 1 || sampler.ellipse > 0))
         throw UsageError(std::string(sampler.ellipse > 0 ? "--ewa" : "--aniso") + ": '" + name + "' is " + what +
                          ", which is filtered isotropically");
-    const int layers = shape.cube ? shape.layers / 6 : shape.layers;
+    if (shape.cube && (request.wraps || request.border))
+        throw UsageError(std::string(request.wraps ? "--wrap" : "--border") + ": '" + name + "' is a cube map, which has no edges");
+    const int layers = shape.cubes();
     if (request.layer >= layers)
         throw UsageError("--layer: '" + name + "' has no layer " + std::to_string(request.layer) + " (0 to " + std::to_string(layers - 1) +
                          ")");

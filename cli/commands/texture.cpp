@@ -1,6 +1,7 @@
 #include "cli/commands/texture.h"
 
 #include "cli/image_output.h"
+#include "cli/limits.h"
 #include "cli/lookup_options.h"
 #include "cli/option_values.h"
 #include "cli/output_files.h"
@@ -20,9 +21,6 @@ namespace {
 using texunit::Shape;
 using texunit::Texture;
 
-constexpr int kFaces = 6;  ///< of a cube
-constexpr int kMostLayers = 1 << 20;
-
 /// Which part of a texture, as far as the user says.
 struct SliceChoice {
     std::optional<int> level, layer, face, depth_slice;
@@ -38,12 +36,11 @@ int checked(const std::string& option, std::optional<int> value, int count, cons
 int chosen_slice(const Shape& shape, const SliceChoice& choice, int level) {
     if (choice.face && !shape.cube) throw UsageError("--face: the texture is no cube map");
     if (choice.depth_slice && shape.depth == 1) throw UsageError("--slice: the texture is no volume");
-    const int faces = shape.cube ? kFaces : 1;
-    const int layer = checked("--layer", choice.layer, shape.layers / faces, shape.cube ? "cubes of the array" : "layers of the array");
-    const int face = checked("--face", choice.face, faces, "+x -x +y -y +z -z");
+    const int layer = checked("--layer", choice.layer, shape.cubes(), shape.cube ? "cubes of the array" : "layers of the array");
+    const int face = checked("--face", choice.face, shape.faces(), "+x -x +y -y +z -z");
     const int depth_slice = checked("--slice", choice.depth_slice, shape.depth, "depth slices of level 0");
     const int last = texunit::level_extent(shape.depth, level) - 1;
-    return shape.depth > 1 ? std::min(depth_slice >> level, last) : layer * faces + face;
+    return shape.depth > 1 ? std::min(depth_slice >> level, last) : layer * shape.faces() + face;
 }
 
 /// FOLDER/NAME.levelN.EXT for FOLDER/NAME.EXT.
@@ -70,10 +67,9 @@ class TextureCommand : public Command {
         line.flag("--json", "info: as JSON", json_);
         line.option("-o,--output", "IMAGE",
                     "decode, mips: the image to write; for NAME.EXT mips writes one image a level, NAME.level0.EXT and so on, but all "
-                    "layers, faces "
-                    "and levels into a NAME.dds",
+                    "layers, faces and levels into a NAME.dds",
                     [this](const std::string& text) { output_ = text; });
-        line.group("Which texels (each 0 by default)");
+        line.group("Which texels (each 0 by default); mips writes every level of that layer, face or slice");
         declare_index(line, "--level", "L", "decode: the level, finest first", choice_.level);
         declare_index(line, "--layer", "N", "the layer of an array, or the cube of an array of cubes", choice_.layer);
         declare_index(line, "--face", "F", "the face of a cube map: +x -x +y -y +z -z are 0 to 5", choice_.face);
@@ -96,7 +92,7 @@ class TextureCommand : public Command {
     static void declare_index(CommandLine& line, const std::string& option, const std::string& value, const std::string& help,
                               std::optional<int>& index) {
         line.option(option, value, help,
-                    [&index, option](const std::string& text) { index = int(parse_integer(option, text, 0, kMostLayers)); });
+                    [&index, option](const std::string& text) { index = int(parse_integer(option, text, 0, kMaxLayer)); });
     }
 
     void check_options(size_t action) const;
@@ -158,11 +154,15 @@ int TextureCommand::write_images(const Invocation& invocation, bool every_level)
     check_outputs(outputs, {&path, 1});
 
     const scenes::Metadata metadata{{"Software", "rawtexel " + std::string(version())}, {"rawtexel:command", invocation.command_line}};
+    bool lost_alpha = false;
     for (int level = first; level < end; ++level) {
         const std::string& output = outputs[size_t(level - first)].path;
-        write_slice(output, texture, level, chosen_slice(texture.shape(), choice_, level), metadata);
+        const int slice = chosen_slice(texture.shape(), choice_, level);
+        write_slice(output, texture, level, slice, metadata);
+        lost_alpha = lost_alpha || loses_alpha(output, texture, level, slice);
         invocation.out << "Saved: " << output << '\n';
     }
+    if (lost_alpha) warn(invocation, output_ + ": the format has no alpha, which the texels have; one that does is '.png'");
     return kDone;
 }
 

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -82,6 +83,16 @@ TEST(Fetches, AreCountedPixelByPixelAndTracedOneByOne) {
     EXPECT_EQ(header.find("l1_miss."), std::string::npos) << "no cache was asked for";
     EXPECT_NE(test::read_file(folder / "a.exr").substr(0, 4000).find("lines."), std::string::npos);
     EXPECT_GT(std::filesystem::file_size(folder / "trace.zst"), 100u);
+}
+
+TEST(Fetches, AreToldInPrintWithTheirUnit) {
+    const TemporaryFolder folder;
+    const std::string scene = test::write_quad(folder);
+    // From afar each lookup of the ellipse reads most of 64x64 texels.
+    const std::string near = run(render_words(scene, folder / "a.png", {"--count"})).out;
+    const std::string far = run(render_words(scene, folder / "a.png", {"--count", "--ewa:4", "--eye", "0,0,40"})).out;
+    EXPECT_TRUE(std::regex_search(near, std::regex(R"( texels \([0-9.]+ texels per shaded sample\)\n)"))) << near;
+    EXPECT_TRUE(std::regex_search(far, std::regex(R"( texels \([0-9.]+ ktexels per shaded sample\)\n)"))) << far;
 }
 
 TEST(Fetches, WithBadCachesAndFilesAreRefused) {

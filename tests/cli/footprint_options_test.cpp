@@ -28,18 +28,36 @@ std::string complaint(const std::vector<std::string>& words) {
 
 TEST(FootprintOptions, EveryOneReachesItsMember) {
     EXPECT_EQ(parsed({}), shading::FootprintOptions{});
-    const shading::FootprintOptions all = parsed(
-        {"--aniso", "16:0.25", "--ewa:0.5", "--lod-rule", "exact", "--lod-bias", "-1.5", "--derivatives", "quad", "--footprint", "sample"});
+    const shading::FootprintOptions all =
+        parsed({"--aniso", "16:0.25", "--lod-rule", "exact", "--lod-bias", "-1.5", "--derivatives", "quad", "--footprint", "sample"});
     EXPECT_EQ(all.probes, 16);
     EXPECT_EQ(all.probe_variance, 0.25f);
-    EXPECT_EQ(all.ellipse, 0.5f);
     EXPECT_EQ(all.lod_rule, texunit::LodRule::Exact);
     EXPECT_EQ(all.lod_bias, -1.5f);
     EXPECT_EQ(all.derivatives, shading::Derivatives::Quad);
     EXPECT_EQ(all.area, shading::FootprintArea::Sample);
     EXPECT_EQ(print_anisotropy(all), "16:0.25");
+    EXPECT_EQ(parsed({"--ewa:0.5"}).ellipse, 0.5f);
     EXPECT_EQ(parsed({"--ewa"}).ellipse, 1.0f / 6);
     EXPECT_EQ(print_anisotropy(parsed({"--aniso", "64"})), "64");
+}
+
+TEST(FootprintOptions, TakeTheWholeRangeOfVariances) {
+    EXPECT_EQ(parsed({"--aniso", "1:0.001"}).probe_variance, 0.001f);
+    EXPECT_EQ(parsed({"--aniso", "64:4"}).probe_variance, 4.0f);
+    EXPECT_EQ(parsed({"--ewa:0.001"}).ellipse, 0.001f);
+    EXPECT_EQ(parsed({"--ewa:4"}).ellipse, 4.0f);
+    for (const char* beyond : {"0", "0.0009", "4.001", "-1"}) {
+        EXPECT_NE(complaint({"--aniso", std::string("16:").append(beyond)}).find("0.001 to 4"), std::string::npos) << beyond;
+        EXPECT_NE(complaint({std::string("--ewa:").append(beyond)}).find("0.001 to 4"), std::string::npos) << beyond;
+    }
+}
+
+TEST(FootprintOptions, AreProbesOrTheEllipse) {
+    const std::initializer_list<std::vector<std::string>> both{
+        {"--aniso", "16:0.25", "--ewa"}, {"--ewa:0.5", "--aniso", "16:0.25"}, {"--ewa", "--aniso", "16"}, {"--aniso", "1", "--ewa:0.5"}};
+    for (const auto& words : both)
+        EXPECT_NE(complaint(words).find("--aniso and --ewa exclude each other"), std::string::npos) << words[0] << ' ' << complaint(words);
 }
 
 TEST(FootprintOptions, SayWhatIsWrongAndWhatIsAllowed) {

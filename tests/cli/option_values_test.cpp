@@ -42,6 +42,15 @@ TEST(OptionValues, RangesIncludeTheirEnds) {
     EXPECT_THROW(parse_vector("--x", "0,1,3", "X,Y,Z", {0, 2}), UsageError);
 }
 
+TEST(OptionValues, BytesTakeTheUnitsOfPowersOf1024) {
+    EXPECT_EQ(parse_bytes("--x", "123"), 123u);
+    EXPECT_EQ(parse_bytes("--x", "3K"), 3072u);
+    EXPECT_EQ(parse_bytes("--x", "7M"), uint64_t{7} << 20);
+    EXPECT_EQ(parse_bytes("--x", "1024G"), uint64_t{1} << 40);
+    for (const char* text : {"", "0", "-1", "K", "1k", "1.5M", "1T", "1GB", "1025G", "99999999999999999999"})
+        EXPECT_THROW(parse_bytes("--x", text), UsageError) << '"' << text << '"';
+}
+
 TEST(OptionValues, RangesReadWell) {
     EXPECT_EQ(print(NumberRange{-1e15f, 1e15f}), "-1e15 to 1e15");
     EXPECT_EQ(print(NumberRange{1e-6f, 1e10f}), "1e-6 to 1e10");

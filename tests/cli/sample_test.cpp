@@ -100,8 +100,9 @@ TEST(Sample, AddsUpForEveryKernelWrapAndShape) {
     for (const char* filter : {"nearest", "bilinear", "quadratic", "bspline", "mitchell", "mitchell:2,-1", "catmull-rom", "lanczos2",
                                "lanczos3", "gaussian", "gaussian:1.5", "gaussian-point"}) {
         const auto options = [&](std::vector<std::string> place) {
-            const std::vector<std::string> sampler{"--filter", filter, "--wrap", wraps[n++ % wraps.size()], "--border", "0.5,1,2,0.25"};
-            place.insert(place.end(), sampler.begin(), sampler.end());
+            place.insert(place.end(), {"--filter", filter});
+            // Cube maps have no edges.
+            if (place[0] != "--direction") place.insert(place.end(), {"--wrap", wraps[n++ % wraps.size()], "--border", "0.5,1,2,0.25"});
             return place;
         };
         expect_adds_up(sample(flat, options({"--uv", "-0.07,1.31", "--ddx", "0.11,0.02", "--ddy", "-0.01,0.3"})), filter);
@@ -147,7 +148,6 @@ TEST(Sample, TakesALevelOfDetailAsItIs) {
     EXPECT_EQ(weights("1.25", {"--mip", "none"}), (std::array<double, 5>{1, 0, 0, 0, 0}));
     EXPECT_EQ(weights("1.25", {"--max-lod", "0.5"}), (std::array<double, 5>{0.5, 0.5, 0, 0, 0}));
     EXPECT_EQ(weights("1.25", {"--min-lod", "3"}), (std::array<double, 5>{0, 0, 0, 1, 0}));
-    EXPECT_EQ(weights("1.25", {"--aniso", "16"}), (std::array<double, 5>{0, 0.75, 0.25, 0, 0}));
     EXPECT_EQ(weights("1.001", {"--precision", "gpu"}), (std::array<double, 5>{0, 1, 0, 0, 0})) << "to 1/256";
 }
 
@@ -278,6 +278,8 @@ TEST(Sample, TellsPeopleThePrecisionTheLevelsAndTheTaps) {
           "Precision: exact (fractions of texels and levels are not quantised)", "Coordinates: 0.3,0.3", "Level of detail: 1.25",
           "level 1, 8x8 texels: weight 0.75 in 4 taps", "level 2, 4x4 texels: weight 0.25 in 4 taps", "weight", "alpha", "sum", "result"})
         EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in\n" << outcome.out;
+    const std::string single = test::write_dds(folder, "1.dds", {}, FileFormat::Rgba8Unorm);
+    EXPECT_NE(run({"sample", single, "--uv", "0.3,0.3"}).out.find("rgba8-unorm, 1x1, 1 level\n"), std::string::npos);
     EXPECT_NE(run({"sample", texture, "--uv", "0.3,0.3", "--precision", "gpu"})
                   .out.find("Precision: gpu (fractions of texels and levels in steps of 1/256)"),
               std::string::npos);
@@ -307,6 +309,12 @@ TEST(Sample, WrongUsageIsExitCode2) {
         {flat, {"--uv", "0,0", "--ddx", "1,0,0", "--ddy", "0,1"}, "--ddx: '1,0,0' is not U,V"},
         {flat, {"--uv", "0,0", "--lod", "1", "--ddx", "1,0", "--ddy", "0,1"}, "--lod and --ddx exclude each other"},
         {flat, {"--uv", "0,0", "--lod", "1", "--ewa"}, "--lod and --ewa exclude each other"},
+        {flat, {"--uv", "0,0", "--lod", "1", "--aniso", "4"}, "--lod and --aniso exclude each other"},
+        {flat, {"--uv", "0,0", "--aniso", "4:0.25", "--ewa"}, "--aniso and --ewa exclude each other"},
+        {cube, {"--direction", "0,0,1", "--wrap", "clamp"}, "--wrap: "},
+        {cube, {"--direction", "0,0,1", "--border", "1,1,1,1"}, "is a cube map, which has no edges"},
+        {cube, {"--direction", "0,0,0"}, "--direction: 0,0,0 is no direction"},
+        {cube, {"--direction", "-0,0,0e9"}, "--direction: 0,0,0 is no direction"},
         {flat, {"--uv", "0,0", "--wrap", "repaet"}, "the nearest is 'repeat'"},
         {flat, {"--uv", "0,0", "--wrap", "repeat,repeat,repeat,repeat"}, "is not S[,T[,R]]"},
         {flat, {"--uv", "0,0", "--border", "1,2,3"}, "is not R,G,B,A"},
@@ -335,6 +343,11 @@ TEST(Sample, BadInputIsExitCode3) {
         const std::string places = folder.write("places", std::string_view(text));
         EXPECT_EQ(why_not_failed(run({"sample", flat, "--uv", at_file(places)}), kBadInput, part), "");
     }
+    const std::string cube = test::write_dds(folder, "c.dds", {.width = 4, .height = 4, .layers = 6, .cube = true}, FileFormat::Rgba8Unorm);
+    const std::string directions = folder.write("directions", "0 0 1\n0 1e-30 0\n0 0 1 0 0 0 0 0 0\n0 0 0 1 0 0 0 1 0\n");
+    EXPECT_EQ(
+        why_not_failed(run({"sample", cube, "--direction", at_file(directions)}), kBadInput, "directions: line 4: 0,0,0 is no direction"),
+        "");
     const std::string places = folder.write("places", "0 0 1 0 0 1\n");
     EXPECT_EQ(why_not_failed(run({"sample", flat, "--uv", at_file(places), "--lod", "1"}), kBadInput, "which --lod takes the place of"),
               "");

@@ -50,8 +50,7 @@ Bytes header(const texunit::Shape& shape, FileFormat format) {
     for (int i = 0; i < 11; ++i) append_words(bytes, {0});
     append_words(bytes, {32, 4, 0x30315844, 0, 0, 0, 0, 0});  // "DX10"
     append_words(bytes, {0x1000, shape.cube ? 0xFE00u : volume ? 0x200000u : 0u, 0, 0, 0});
-    append_words(bytes,
-                 {uint32_t(format), volume ? 4u : 3u, shape.cube ? 4u : 0u, uint32_t(shape.cube ? shape.layers / 6 : shape.layers), 0});
+    append_words(bytes, {uint32_t(format), volume ? 4u : 3u, shape.cube ? 4u : 0u, uint32_t(shape.cubes()), 0});
     return bytes;
 }
 

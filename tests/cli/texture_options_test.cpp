@@ -31,15 +31,6 @@ TEST(TextureOptions, ReachTheirMembers) {
     EXPECT_THROW(options_of({"--bc-rounding", "intel"}), UsageError);
 }
 
-TEST(TextureOptions, BytesTakeTheUnitsOfPowersOf1024) {
-    EXPECT_EQ(parse_bytes("--x", "123"), 123u);
-    EXPECT_EQ(parse_bytes("--x", "3K"), 3072u);
-    EXPECT_EQ(parse_bytes("--x", "7M"), uint64_t{7} << 20);
-    EXPECT_EQ(parse_bytes("--x", "1024G"), uint64_t{1} << 40);
-    for (const char* text : {"", "0", "-1", "K", "1k", "1.5M", "1T", "1GB", "1025G", "99999999999999999999"})
-        EXPECT_THROW(parse_bytes("--x", text), UsageError) << '"' << text << '"';
-}
-
 void append_32(std::string& bytes, uint32_t value) {
     for (int shift = 0; shift < 32; shift += 8) bytes += char(value >> shift & 0xff);
 }

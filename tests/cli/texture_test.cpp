@@ -172,6 +172,47 @@ TEST(TextureDecode, GivesFloatFormatsLinearValues) {
     EXPECT_EQ(decoded(snorm, folder / "out.exr").pixel(2, 1)[0], float(std::max(int8_t(code_of(0, 0, 2, 1, 0)) / 127.0, -1.0)));
 }
 
+TEST(TextureDecode, WritesSignAndAlphaOfFloatsOrRefuses) {
+    const TemporaryFolder folder;
+    const texunit::Shape shape{.width = 5, .height = 3};
+    const std::string snorm = test::write_dds(folder, "n.dds", shape, FileFormat::Rgba8Snorm);
+    const std::string floats = test::write_dds(folder, "f.dds", shape, FileFormat::Rgba32Float);
+    for (const std::string& texture : {snorm, floats}) {
+        const shading::Image exr = decoded(texture, folder / "o.exr"), tif = decoded(texture, folder / "o.tif");
+        EXPECT_EQ(exr.channels, 4);
+        EXPECT_EQ(tif.channels, 4);
+        EXPECT_EQ(tif.values, exr.values) << texture;
+        for (const char* name : {"o.hdr", "o.rgbe"})
+            EXPECT_EQ(why_not_failed(run({"texture", "decode", texture, "-o", folder / name}), kWrongUsage, "a format that can is '.exr'"),
+                      "");
+    }
+    const shading::Image negative = decoded(snorm, folder / "o.tif");
+    EXPECT_LT(std::ranges::min(negative.values), 0.0f);
+    EXPECT_EQ(folder.entries(), (std::vector<std::string>{"f.dds", "n.dds", "o.exr", "o.tif"}));
+}
+
+/// What decode or mips says on stderr.
+std::string warned(const std::string& action, const std::string& texture, const std::string& image) {
+    const test::Outcome outcome = run({"texture", action, texture, "-o", image});
+    EXPECT_EQ(outcome.code, kDone) << outcome.err;
+    return outcome.err;
+}
+
+TEST(TextureDecode, WarnsInOneLineOfAlphaThatIsLost) {
+    const TemporaryFolder folder;
+    const std::string texture = test::write_dds(folder, "t.dds", {.width = 4, .height = 4}, FileFormat::Rgba8Unorm);
+    for (const char* action : {"decode", "mips"})
+        for (const char* name : {"o.jpg", "o.hdr", "o.ppm"})
+            EXPECT_EQ(
+                warned(action, texture, folder / name),
+                "rawtexel: warning: " + (folder / name) + ": the format has no alpha, which the texels have; one that does is '.png'\n");
+    for (const char* name : {"o.png", "o.tif", "o.exr", "o.tga", "o.webp"}) EXPECT_EQ(warned("decode", texture, folder / name), "");
+    // Nothing is lost of what is opaque.
+    const std::string two = test::write_dds(folder, "2.dds", {.width = 4, .height = 4}, FileFormat::Rg8Unorm);
+    scenes::write_8bit(folder / "opaque.png", 2, 2, 3, std::vector<uint8_t>(12, 100), {});
+    for (const std::string& opaque : {two, folder / "opaque.png"}) EXPECT_EQ(warned("mips", opaque, folder / "o.jpg"), "");
+}
+
 TEST(TextureDecode, PngHolds16BitCodes) {
     const TemporaryFolder folder;
     const std::string wide = test::write_dds(folder, "w.dds", {.width = 6, .height = 6}, FileFormat::Rgba16Unorm);
@@ -216,6 +257,10 @@ TEST(TextureMips, WritesOneImageALevel) {
     ASSERT_EQ(run({"texture", "mips", volume, "-o", folder / "v.png", "--slice", "7"}).code, kDone);
     for (int level = 0; level < 4; ++level)
         expect_codes(scenes::read_image(folder / ("v.level" + std::to_string(level) + ".png"), false), level, 7 >> level);
+}
+
+TEST(TextureMips, TellsWhatAChosenLayerMeans) {
+    EXPECT_NE(run({"texture", "--help"}).out.find("mips writes every level of that layer, face or slice"), std::string::npos);
 }
 
 TEST(TextureMips, WritesTheWholePyramidIntoOneDds) {

@@ -440,7 +440,9 @@ TEST(Formats, AreToldByTheExtension) {
     for (const char* name : {"a.png", "a.jpg", "exr", "a.exr/b", ""}) EXPECT_FALSE(is_float_format(name)) << name;
     for (const char* name : {"a.png", "a.jpg", "a.jpeg", "a.exr", "a.hdr", "a.tif", "a.bmp", "a.ppm"})
         EXPECT_TRUE(is_writable_format(name)) << name;
-    for (const char* name : {"a.xyz", "a", "png", "", "a.glb"}) EXPECT_FALSE(is_writable_format(name)) << name;
+    for (const char* name : {"a.xyz", "a", "png", "", "a.glb", "a.pfm"}) EXPECT_FALSE(is_writable_format(name)) << name;
+    for (const char* name : {"a.png", "a.EXR", "a.tif", "a.tga"}) EXPECT_TRUE(stores_alpha(name)) << name;
+    for (const char* name : {"a.jpg", "a.hdr", "a.ppm", "a.pfm", "a"}) EXPECT_FALSE(stores_alpha(name)) << name;
 }
 
 }  // namespace
