@@ -50,7 +50,7 @@ struct RenderOptions {
     /// Hears of every lookup in place of counters: one thread's executor is wanted.
     LookupListener* listener = nullptr;
     FragmentListener* fragment_listener = nullptr;  ///< watches every fragment; one thread's executor is wanted
-    int tile_size = 64;  ///< 32, 64 or 128
+    int tile_size = 64;                             ///< 32, 64 or 128
 };
 
 struct RenderTimes {

@@ -61,7 +61,7 @@ struct TileScratch {
     SampleTree sums;
     LookupListener* listener = nullptr;             ///< hears of the tile's lookups; null: nobody does
     FragmentListener* fragment_listener = nullptr;  ///< likewise of its fragments
-    CandidateLog candidates;             ///< of the sample at hand, for the listener
+    CandidateLog candidates;                        ///< of the sample at hand, for the listener
     TileTotals totals;
 };
 
