@@ -11,6 +11,7 @@
 #include "shading/fetch_options.h"
 #include "shading/lookup_listener.h"
 #include "shading/tile.h"
+#include "shading/wave_draws-inl.h"
 
 #include <algorithm>
 #include <bit>
@@ -39,7 +40,7 @@ struct AskingFragments {
     WaveMask others = 0;      ///< lanes that ask for every other map
     WaveMask beyond = 0;      ///< lanes of quads that no fragment covers: their coordinates leave the triangle
     bool one_triangle = false;
-    alignas(64) uint32_t setup_index[texunit::kWaveLanes];
+    const uint32_t* setup_index = nullptr;  ///< 32; means something for the lanes that ask
 };
 
 class DemandedLookups {
@@ -64,8 +65,7 @@ class DemandedLookups {
             wave_.index = place.index;
             wave_.x = tile_x_ + place.x;
             wave_.y = tile_y_ + place.y;
-            if (inputs_.pixel_jitter == PixelJitter::Pixel) load_offsets(place);
-            find_surface(place);
+            load_pixels(place);
             const auto of_wave = std::ranges::equal_range(candidates, uint32_t(place.index), {}, &LoggedCandidate::wave);
             listener_.begin_wave(wave_);
             if (inputs_.fetch_model == FetchModel::Visible) {
@@ -99,23 +99,13 @@ class DemandedLookups {
         }
     }
 
-    void load_offsets(const WavePlace& place) {
-        for (int row = 0; row < texunit::kWaveHeight; ++row) {
-            const size_t pixel = size_t((place.y + row) * tile_size_ + place.x);
-            std::copy_n(&scratch_.offsets[pixel], texunit::kWaveWidth, offset_ + row * texunit::kWaveWidth);
-        }
-    }
+    /// Of the wave's upper left pixel, in the tile's arrays.
+    size_t pixel(const WavePlace& place) const { return size_t(place.y * tile_size_ + place.x); }
 
-    size_t pixel(const WavePlace& place, int lane) const {
-        return size_t((place.y + lane / texunit::kWaveWidth) * tile_size_ + place.x + lane % texunit::kWaveWidth);
-    }
-
-    void find_surface(const WavePlace& place) {
-        wave_.surface = lanes_inside(inputs_.visible, wave_.x, wave_.y);
-        for (int lane = 0; lane < texunit::kWaveLanes; ++lane) {
-            surface_[lane] = scratch_.visibility.triangle[pixel(place, lane)];
-            if (surface_[lane] == raster::kNoTriangle) wave_.surface &= ~(WaveMask(1) << lane);
-        }
+    void load_pixels(const WavePlace& place) {
+        load_wave(&scratch_.visibility.triangle[pixel(place)], tile_size_, surface_);
+        if (inputs_.pixel_jitter == PixelJitter::Pixel) load_wave(&scratch_.offsets[pixel(place)], tile_size_, offset_);
+        wave_.surface = lanes_inside(inputs_.visible, wave_.x, wave_.y) & ~lanes_that_see(surface_, raster::kNoTriangle);
     }
 
     // --- visible
@@ -132,11 +122,13 @@ class DemandedLookups {
 
     /// Lanes that the candidate let through, and in which it lies before the surface that is seen.
     WaveMask discarded_before_surface(const WavePlace& place, const LoggedCandidate& candidate) const {
+        alignas(64) float depths[texunit::kWaveLanes];
+        load_wave(&scratch_.visibility.depth[pixel(place)], tile_size_, depths);
         WaveMask before = 0;
         for (WaveMask rest = candidate.lanes & ~candidate.covered; rest != 0; rest &= rest - 1) {
             const int lane = std::countr_zero(rest);
-            const uint32_t surface = scratch_.visibility.triangle[pixel(place, lane)];
-            const float depth = scratch_.visibility.depth[pixel(place, lane)];
+            const uint32_t surface = surface_[lane];
+            const float depth = depths[lane];
             const bool first = surface == raster::kNoTriangle || candidate.depth[lane] > depth ||
                                (candidate.depth[lane] == depth &&
                                 frame_.triangle(candidate.setup_index).triangle_id < frame_.triangle(surface).triangle_id);
@@ -147,22 +139,14 @@ class DemandedLookups {
 
     /// Tells of the lanes of `rest` that see the draw which its first lane sees; returns them.
     WaveMask tell_surface(WaveMask rest) {
-        const uint32_t first = surface_[std::countr_zero(rest)];
-        const uint32_t draw = frame_.triangle(first).draw;
+        const DrawLanes seen = first_draw(frame_, surface_, rest);
         asking_ = {};
-        asking_.draw = &inputs_.draws[draw];
-        asking_.one_triangle = true;
-        std::fill_n(asking_.setup_index, texunit::kWaveLanes, first);
-        for (WaveMask lanes = rest; lanes != 0; lanes &= lanes - 1) {
-            const int lane = std::countr_zero(lanes);
-            if (surface_[lane] != first && frame_.triangle(surface_[lane]).draw != draw) continue;
-            asking_.others |= WaveMask(1) << lane;
-            asking_.setup_index[lane] = surface_[lane];
-            asking_.one_triangle &= surface_[lane] == first;
-        }
-        asking_.base_color = asking_.others;
+        asking_.draw = &inputs_.draws[seen.draw];
+        asking_.base_color = asking_.others = seen.lanes;
+        asking_.one_triangle = seen.one_triangle;
+        asking_.setup_index = surface_;
         tell(false);
-        return asking_.others;
+        return seen.lanes;
     }
 
     // --- forward and quad
@@ -185,7 +169,8 @@ class DemandedLookups {
     void set_triangle(uint32_t setup_index) {
         asking_.draw = &inputs_.draws[frame_.triangle(setup_index).draw];
         asking_.one_triangle = true;
-        std::fill_n(asking_.setup_index, texunit::kWaveLanes, setup_index);
+        std::fill_n(triangle_, texunit::kWaveLanes, setup_index);
+        asking_.setup_index = triangle_;
     }
 
     // --- all of them
@@ -213,17 +198,10 @@ class DemandedLookups {
             weights_.b2[lane] = unclamped.b2[lane];
         }
         const Mesh& mesh = *asking_.draw->mesh;
-        const uint32_t* const indices = mesh.indices.data();
-        const auto vertices = [&](int lane) { return indices + size_t(frame_.triangle(asking_.setup_index[lane]).primitive) * 3; };
-        const auto interpolate = [&](const auto& corners) HWY_ATTR {
+        with_corners(frame_, mesh, asking_.setup_index, {0, asking_.base_color, asking_.one_triangle}, [&](const auto& corners) HWY_ATTR {
             for (int k = 0; k < material.coordinate_count; ++k)
                 interpolate_coordinates(material.coordinates[size_t(k)], mesh, corners, weights_, coordinates_[k]);
-        };
-        if (asking_.one_triangle) return interpolate(OneTriangle{vertices(0)});
-        TrianglePerLane corners;
-        for (int lane = 0; lane < texunit::kWaveLanes; ++lane)
-            for (int k = 0; k < 3; ++k) corners.vertex[k][lane] = int32_t(vertices(lane)[k]);
-        interpolate(corners);
+        });
     }
 
     const TileInputs& inputs_;
@@ -234,7 +212,8 @@ class DemandedLookups {
     std::vector<WavePlace> waves_;
     ListenedWave wave_;
     AskingFragments asking_;
-    uint32_t surface_[texunit::kWaveLanes];
+    alignas(64) uint32_t surface_[texunit::kWaveLanes];   ///< setup indices of what is seen
+    alignas(64) uint32_t triangle_[texunit::kWaveLanes];  ///< one of them, for all lanes
     alignas(64) raster::SampleOffset offset_[texunit::kWaveLanes];
     raster::BarycentricWave weights_{};
     texunit::WaveCoordinates coordinates_[kMapSlots]{};

@@ -15,6 +15,7 @@
 #include "shading/lookup-inl.h"
 #include "shading/material-inl.h"
 #include "shading/tile.h"
+#include "shading/wave_draws-inl.h"
 
 #include <algorithm>
 #include <bit>
@@ -170,9 +171,7 @@ class TileRenderer {
     /// Of the wave at pixel (x, y) of the tile.
     void tell_sampled(int x, int y) {
         alignas(64) float depth[texunit::kWaveLanes];
-        for (int row = 0; row < texunit::kWaveHeight; ++row)
-            std::copy_n(&scratch_.visibility.depth[size_t((y + row) * tile_size_ + x)], texunit::kWaveWidth,
-                        depth + row * texunit::kWaveWidth);
+        load_wave(&scratch_.visibility.depth[size_t(y * tile_size_ + x)], tile_size_, depth);
         const WaveFloat* const radiance = &plane(TilePlanes::kRadiance, wave_.index);
         scratch_.fragment_listener->sampled({.block = {wave_.x, wave_.y, wave_.sample, wave_.inside},
                                              .radiance = {radiance, radiance + wave_count(), radiance + 2 * wave_count()},
@@ -200,7 +199,7 @@ class TileRenderer {
     void shade_wave(int x, int y) {
         load_pixels(x, y);
         clear_planes();
-        const WaveMask surface = wave_.inside & lanes_with_triangle();
+        const WaveMask surface = wave_.inside & ~lanes_that_see(wave_.setup_index, raster::kNoTriangle);
         scratch_.totals.samples_shaded += uint64_t(std::popcount(surface));
         if (surface != 0) shade_surfaces(surface);
         if (wave_.inside & ~surface) shade_background(wave_.inside & ~surface);
@@ -210,23 +209,9 @@ class TileRenderer {
     /// What the tile's arrays hold for the wave's pixels.
     void load_pixels(int x, int y) {
         wave_.has_directions = false;
-        for (int row = 0; row < texunit::kWaveHeight; ++row) {
-            const size_t pixel = size_t((y + row) * tile_size_ + x);
-            const int lane = row * texunit::kWaveWidth;
-            std::copy_n(&scratch_.visibility.triangle[pixel], texunit::kWaveWidth, wave_.setup_index + lane);
-            if (inputs_.pixel_jitter == PixelJitter::Pixel) std::copy_n(&scratch_.offsets[pixel], texunit::kWaveWidth, wave_.offset + lane);
-        }
-    }
-
-    WaveMask lanes_with_triangle() const { return ~lanes_that_see(raster::kNoTriangle); }
-
-    WaveMask lanes_that_see(uint32_t setup_index) const {
-        const FloatLanes d;
-        const UintLanes du;
-        WaveMask mask = 0;
-        for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d))
-            mask |= wave_mask_bits(hn::RebindMask(d, hn::Eq(hn::Load(du, wave_.setup_index + i), hn::Set(du, setup_index))), i);
-        return mask;
+        const size_t pixel = size_t(y * tile_size_ + x);
+        load_wave(&scratch_.visibility.triangle[pixel], tile_size_, wave_.setup_index);
+        if (inputs_.pixel_jitter == PixelJitter::Pixel) load_wave(&scratch_.offsets[pixel], tile_size_, wave_.offset);
     }
 
     void find_directions() {
@@ -259,46 +244,23 @@ class TileRenderer {
         find_barycentrics(inputs_.derivatives, {frame_, wave_.setup_index, wave_.offset, wave_.x, wave_.y}, surface, weights_);
         clamp_weights(weights_);
         for (WaveMask rest = surface; rest != 0;) {
-            const uint32_t first = wave_.setup_index[std::countr_zero(rest)];
-            const raster::SetupTriangle& triangle = frame_.triangle(first);
-            WaveMask pass = rest & lanes_that_see(first);
-            store_value(facing_of(triangle), texunit::kWaveFull, fragment_.facing);
-            const bool one_triangle = pass == rest || !add_lanes_of_draw(triangle.draw, rest, pass);
-            rest &= ~pass;
-            interpolate(inputs_.draws[triangle.draw], pass, one_triangle);
-            shade_pass(inputs_.draws[triangle.draw], pass);
+            const DrawLanes seen = first_draw(frame_, wave_.setup_index, rest);
+            const DrawState& draw = inputs_.draws[seen.draw];
+            rest &= ~seen.lanes;
+            find_facing(seen);
+            with_corners(frame_, *draw.mesh, wave_.setup_index, seen,
+                         [&](const auto& corners) HWY_ATTR { interpolate_fragment(draw, corners, weights_, fragment_); });
+            shade_pass(draw, seen.lanes);
         }
     }
 
-    static float facing_of(const raster::SetupTriangle& triangle) { return triangle.front_facing ? 1.0f : -1.0f; }
-
-    /// Adds to `pass` the lanes of `rest` that see other triangles of the draw; returns whether there are any.
-    bool add_lanes_of_draw(uint32_t draw, WaveMask rest, WaveMask& pass) {
-        const WaveMask before = pass;
-        for (WaveMask lanes = rest & ~pass; lanes != 0; lanes &= lanes - 1) {
-            const int lane = std::countr_zero(lanes);
-            const raster::SetupTriangle& triangle = frame_.triangle(wave_.setup_index[lane]);
-            if (triangle.draw != draw) continue;
-            pass |= WaveMask(1) << lane;
-            fragment_.facing[lane] = facing_of(triangle);
-        }
-        return pass != before;
-    }
-
-    void interpolate(const DrawState& draw, WaveMask pass, bool one_triangle) {
-        const uint32_t* indices = draw.mesh->indices.data();
-        if (one_triangle) {
-            const raster::SetupTriangle& triangle = frame_.triangle(wave_.setup_index[std::countr_zero(pass)]);
-            interpolate_fragment(draw, OneTriangle{indices + size_t(triangle.primitive) * 3}, weights_, fragment_);
-            return;
-        }
-        TrianglePerLane corners{};
-        for (WaveMask lanes = pass; lanes != 0; lanes &= lanes - 1) {
-            const int lane = std::countr_zero(lanes);
-            const uint32_t* vertex = indices + size_t(frame_.triangle(wave_.setup_index[lane]).primitive) * 3;
-            for (int k = 0; k < 3; ++k) corners.vertex[k][lane] = int32_t(vertex[k]);
-        }
-        interpolate_fragment(draw, corners, weights_, fragment_);
+    void find_facing(const DrawLanes& seen) {
+        const auto facing = [&](WaveMask lanes) {
+            return frame_.triangle(wave_.setup_index[std::countr_zero(lanes)]).front_facing ? 1.0f : -1.0f;
+        };
+        store_value(facing(seen.lanes), texunit::kWaveFull, fragment_.facing);
+        if (seen.one_triangle) return;
+        for (WaveMask lanes = seen.lanes; lanes != 0; lanes &= lanes - 1) fragment_.facing[std::countr_zero(lanes)] = facing(lanes);
     }
 
     void shade_pass(const DrawState& draw, WaveMask pass) {

@@ -2,6 +2,8 @@
 
 #include "cli/usage_error.h"
 
+#include "tests/cli/option_group.h"
+
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -10,21 +12,10 @@ namespace rawtexel::cli {
 namespace {
 
 shading::FootprintOptions parsed(const std::vector<std::string>& words) {
-    shading::FootprintOptions footprint;
-    CommandLine line("test", "");
-    declare_footprint_options(line, footprint);
-    line.parse(words);
-    return footprint;
+    return test::parsed_options<shading::FootprintOptions>(declare_footprint_options, words);
 }
 
-std::string complaint(const std::vector<std::string>& words) {
-    try {
-        parsed(words);
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return "";
-}
+std::string complaint(const std::vector<std::string>& words) { return test::complaint_of(parsed, words); }
 
 TEST(FootprintOptions, EveryOneReachesItsMember) {
     EXPECT_EQ(parsed({}), shading::FootprintOptions{});

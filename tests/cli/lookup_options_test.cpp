@@ -5,6 +5,8 @@
 #include "scenes/image_io.h"
 #include "tests/cli/program_runner.h"
 
+#include "tests/cli/option_group.h"
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -19,22 +21,9 @@ namespace {
 using test::run;
 using test::TemporaryFolder;
 
-LookupOptions parsed(const std::vector<std::string>& words) {
-    LookupOptions lookup;
-    CommandLine line("test", "");
-    declare_lookup_options(line, lookup);
-    line.parse(words);
-    return lookup;
-}
+LookupOptions parsed(const std::vector<std::string>& words) { return test::parsed_options<LookupOptions>(declare_lookup_options, words); }
 
-std::string complaint(const std::vector<std::string>& words) {
-    try {
-        parsed(words);
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return "";
-}
+std::string complaint(const std::vector<std::string>& words) { return test::complaint_of(parsed, words); }
 
 const std::vector<std::string> kFilters{
     "scene",       "nearest",  "bilinear", "quadratic", "bspline",      "mitchell",       "mitchell:0.5,-0.25",

@@ -1,27 +1,19 @@
 #include "cli/render_options.h"
 
+#include "tests/cli/option_group.h"
+
 #include <gtest/gtest.h>
 
 namespace rawtexel::cli {
 namespace {
 
 RenderRequest request_of(const std::vector<std::string>& words) {
-    RenderRequest request;
-    CommandLine line("test", "test");
-    declare_render_options(line, request);
-    line.parse(words);
+    RenderRequest request = test::parsed_options<RenderRequest>(declare_render_options, words);
     settle(request);
     return request;
 }
 
-std::string error_of(const std::vector<std::string>& words) {
-    try {
-        request_of(words);
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return "";
-}
+std::string error_of(const std::vector<std::string>& words) { return test::complaint_of(request_of, words); }
 
 TEST(RenderOptions, DefaultsAreThoseOfTheContract) {
     const RenderRequest request = request_of({});

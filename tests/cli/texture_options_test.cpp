@@ -5,6 +5,8 @@
 #include "scenes/image_io.h"
 #include "tests/cli/program_runner.h"
 
+#include "tests/cli/option_group.h"
+
 #include <gtest/gtest.h>
 
 #include <string>
@@ -16,11 +18,7 @@ namespace {
 using test::TemporaryFolder;
 
 texunit::ContainerOptions options_of(const std::vector<std::string>& words) {
-    texunit::ContainerOptions options;
-    CommandLine line("test", "test");
-    declare_texture_options(line, options);
-    line.parse(words);
-    return options;
+    return test::parsed_options<texunit::ContainerOptions>(declare_texture_options, words);
 }
 
 TEST(TextureOptions, ReachTheirMembers) {

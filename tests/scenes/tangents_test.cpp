@@ -272,7 +272,7 @@ TEST(Tangents, ManyTrianglesOnOneEdgeTakeNoTimeSquared) {
 
 TEST(Tangents, OfTheNormalTangentTestAgreeWithTheDefinition) {
     const char* corpus = std::getenv("RAWTEXEL_CORPUS");
-    if (!corpus) GTEST_SKIP() << "RAWTEXEL_CORPUS is not set";
+    if (!corpus) GTEST_SKIP() << "RAWTEXEL_CORPUS is not set: the tangents of NormalTangentTest are not checked";
     const shading::Scene scene = load_gltf(std::string(corpus) + "/gltf/khronos_tests/NormalTangentTest.glb");
     const Mesh& mesh = scene.meshes.at(0);
     constexpr size_t kPart = 900;  // indices: the reference is slow

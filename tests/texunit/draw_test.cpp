@@ -131,6 +131,25 @@ TEST(Draw, OverAllNumbersGivesTheWeights) {
     }
 }
 
+/// A lookup by positivization: how its two texels are drawn, and the red that they make.
+SignedDraw signed_draw(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, const RandomAddress& first) {
+    DrawNumbers positive, negative;
+    draw_numbers(first, positive);
+    negative_draw_numbers(first, negative);
+    SignedDraw draw;
+    draw_signed_wave(texture, sampler, at, kWaveFull, positive, negative, draw);
+    return draw;
+}
+WaveFloat signed_value(Texture& texture, const SamplerState& sampler, const SignedDraw& draw) {
+    WaveColor above, below;
+    read_drawn_wave(texture, sampler, draw.positive, above);
+    read_drawn_wave(texture, sampler, draw.negative, below);
+    WaveFloat value;
+    for (int lane = 0; lane < kWaveLanes; ++lane)
+        value[lane] = draw.positive_weight[lane] * above.channel[0][lane] - draw.negative_weight[lane] * below.channel[0][lane];
+    return value;
+}
+
 const Kernel kSignedKernels[] = {Kernel::mitchell(), Kernel::CatmullRom, Kernel::Lanczos2, Kernel::Lanczos3, Kernel::mitchell(0.2f, 0.9f)};
 
 TEST(SignedDraw, PicksTexelsOfEitherSignWithTheProbabilityOfTheirWeights) {
@@ -157,13 +176,9 @@ TEST(SignedDraw, PicksTexelsOfEitherSignWithTheProbabilityOfTheirWeights) {
                     sums[side] += std::abs(tap.weight);
                 }
                 // Levels and probes are drawn first, and weigh either sign by their own sums: the expectation is what the weights say.
-                SignedDraw draw;
                 double found[2] = {};
                 for (uint32_t n = 0; n < kWaves; ++n) {
-                    DrawNumbers positive, negative;
-                    draw_numbers({.x = 0, .y = 0, .sample = cases * kWaves + n}, positive);
-                    negative_draw_numbers({.x = 0, .y = 0, .sample = cases * kWaves + n}, negative);
-                    draw_signed_wave(texture, sampler, everywhere(at), kWaveFull, positive, negative, draw);
+                    const SignedDraw draw = signed_draw(texture, sampler, everywhere(at), {.x = 0, .y = 0, .sample = cases * kWaves + n});
                     for (int lane = 0; lane < kWaveLanes; ++lane) {
                         EXPECT_NEAR(draw.positive_weight[lane] - draw.negative_weight[lane], 1, 2e-6);
                         drawn[0][place_of(draw.positive, lane)] += double(draw.positive_weight[lane]);
@@ -227,18 +242,8 @@ TEST(SignedDraw, HasTheVarianceOfPositivization) {
             }
             WaveFloat value[2];
             for (uint32_t twin = 0; twin < 2; ++twin) {
-                DrawNumbers positive, negative;
-                draw_numbers({.x = 0, .y = 4 * twin, .sample = n}, positive);
-                negative_draw_numbers({.x = 0, .y = 4 * twin, .sample = n}, negative);
-                SignedDraw draw;
-                WaveColor above, below;
-                draw_signed_wave(texture, sampler, at, kWaveFull, positive, negative, draw);
-                read_drawn_wave(texture, sampler, draw.positive, above);
-                read_drawn_wave(texture, sampler, draw.negative, below);
-                for (int lane = 0; lane < kWaveLanes; ++lane) {
-                    value[twin][lane] =
-                        draw.positive_weight[lane] * above.channel[0][lane] - draw.negative_weight[lane] * below.channel[0][lane];
-                }
+                const SignedDraw draw = signed_draw(texture, sampler, at, {.x = 0, .y = 4 * twin, .sample = n});
+                value[twin] = signed_value(texture, sampler, draw);
             }
             for (int lane = 0; lane < kWaveLanes; ++lane) squares += std::pow(double(value[0][lane] - value[1][lane]), 2) / 2;
         }
@@ -260,19 +265,8 @@ TEST(SignedDraw, LeavesAConstantAsItIs) {
             at.u[lane] = unit(random), at.v[lane] = unit(random);
             at.dudx[lane] = 0.1f * unit(random), at.dvdx[lane] = at.dudy[lane] = 0, at.dvdy[lane] = 0.05f;
         }
-        DrawNumbers positive, negative;
-        draw_numbers({.sample = 1}, positive);
-        negative_draw_numbers({.sample = 1}, negative);
-        SignedDraw draw;
-        WaveColor above, below;
-        draw_signed_wave(texture, sampler, at, kWaveFull, positive, negative, draw);
-        read_drawn_wave(texture, sampler, draw.positive, above);
-        read_drawn_wave(texture, sampler, draw.negative, below);
-        for (int lane = 0; lane < kWaveLanes; ++lane) {
-            const double value = double(draw.positive_weight[lane]) * double(above.channel[0][lane]) -
-                                 double(draw.negative_weight[lane]) * double(below.channel[0][lane]);
-            EXPECT_NEAR(value, double(expected[0]), 4e-6) << to_string(kernel);
-        }
+        const WaveFloat value = signed_value(texture, sampler, signed_draw(texture, sampler, at, {.sample = 1}));
+        for (int lane = 0; lane < kWaveLanes; ++lane) EXPECT_NEAR(value[lane], expected[0], 4e-6) << to_string(kernel);
     }
 }
 

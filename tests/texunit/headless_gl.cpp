@@ -1,20 +1,13 @@
 #include "tests/texunit/headless_gl.h"
 
-#include <dlfcn.h>
+#include "tests/texunit/gl_context.h"
 
 #include <utility>
 
 namespace rawtexel::texunit {
 namespace {
 
-// From the Khronos registries (egl.xml and gl.xml): nothing of OpenGL need be installed to build the tests.
-namespace egl {
-using Display = void*;
-using Context = void*;
-constexpr unsigned kSurfacelessMesa = 0x31DD, kOpenGlApi = 0x30A2;
-constexpr int kMajor = 0x3098, kMinor = 0x30FB, kProfile = 0x30FD, kCore = 1, kNone = 0x3038;
-}  // namespace egl
-
+// From the Khronos registry (gl.xml): nothing of OpenGL need be installed to build the tests.
 constexpr unsigned kTexture2D = 0x0DE1, kMinFilter = 0x2801, kMagFilter = 0x2800, kMaxLevel = 0x813D, kNearest = 0x2600;
 constexpr unsigned kRenderbuffer = 0x8D41, kFramebuffer = 0x8D40, kColour0 = 0x8CE0, kComplete = 0x8CD5;
 constexpr unsigned kRgba = 0x1908, kRgba32f = 0x8814, kFloat = 0x1406, kTriangles = 4, kRenderer = 0x1F01, kNoError = 0;
@@ -32,14 +25,7 @@ constexpr const char* kFragmentSource =
 }  // namespace
 
 struct HeadlessGl::Functions {
-    void* library = nullptr;
-    egl::Display display = nullptr;
-    egl::Context context = nullptr;
-
-    void* (*get_proc)(const char*) = nullptr;
-    unsigned (*destroy_context)(egl::Display, egl::Context) = nullptr;
-    unsigned (*make_current)(egl::Display, void*, void*, egl::Context) = nullptr;
-    unsigned (*terminate)(egl::Display) = nullptr;
+    std::unique_ptr<GlContext> context;
 
     const unsigned char* (*get_string)(unsigned) = nullptr;
     unsigned (*get_error)() = nullptr;
@@ -71,53 +57,12 @@ struct HeadlessGl::Functions {
     void (*draw_arrays)(unsigned, int, int) = nullptr;
     void (*read_pixels)(int, int, int, int, unsigned, unsigned, void*) = nullptr;
 
-    ~Functions() {
-        if (context) make_current(display, nullptr, nullptr, nullptr), destroy_context(display, context);
-        if (display) terminate(display);
-        // The library stays: drivers keep threads and exit handlers of their own.
-    }
-
-    template <class Function>
-    bool find(Function& function, const char* name) {
-        function = reinterpret_cast<Function>(get_proc(name));
-        return function != nullptr;
-    }
-
-    std::string open_display();
-    std::string make_context();
     bool find_all();
     bool use_fetching_program();
 };
 
-std::string HeadlessGl::Functions::open_display() {
-    library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
-    if (!library) return "libEGL.so.1 is not installed";
-    get_proc = reinterpret_cast<decltype(get_proc)>(dlsym(library, "eglGetProcAddress"));
-    if (!get_proc) return "libEGL.so.1 has no eglGetProcAddress";
-    egl::Display (*platform_display)(unsigned, void*, const intptr_t*) = nullptr;
-    unsigned (*initialize)(egl::Display, int*, int*) = nullptr;
-    if (!find(platform_display, "eglGetPlatformDisplayEXT") || !find(initialize, "eglInitialize") || !find(terminate, "eglTerminate"))
-        return "EGL lacks platform displays";
-    egl::Display opened = platform_display(egl::kSurfacelessMesa, nullptr, nullptr);
-    if (!opened || !initialize(opened, nullptr, nullptr)) return "EGL has no surfaceless Mesa display";
-    display = opened;
-    return "";
-}
-
-std::string HeadlessGl::Functions::make_context() {
-    unsigned (*bind_api)(unsigned) = nullptr;
-    egl::Context (*create_context)(egl::Display, void*, egl::Context, const int*) = nullptr;
-    if (!find(bind_api, "eglBindAPI") || !find(create_context, "eglCreateContext") || !find(make_current, "eglMakeCurrent") ||
-        !find(destroy_context, "eglDestroyContext"))
-        return "EGL lacks contexts";
-    bind_api(egl::kOpenGlApi);
-    const int attributes[] = {egl::kMajor, 3, egl::kMinor, 3, egl::kProfile, egl::kCore, egl::kNone};
-    context = create_context(display, nullptr, nullptr, attributes);
-    if (!context) return "EGL makes no OpenGL 3.3 core context";
-    return make_current(display, nullptr, nullptr, context) ? "" : "the context needs a surface";
-}
-
 bool HeadlessGl::Functions::find_all() {
+    const auto find = [this](auto& function, const char* name) { return context->find(function, name); };
     return find(get_string, "glGetString") && find(get_error, "glGetError") && find(gen_textures, "glGenTextures") &&
            find(bind_texture, "glBindTexture") && find(delete_textures, "glDeleteTextures") && find(tex_parameter, "glTexParameteri") &&
            find(compressed_image, "glCompressedTexImage2D") && find(gen_renderbuffers, "glGenRenderbuffers") &&
@@ -155,8 +100,7 @@ HeadlessGl::~HeadlessGl() = default;
 
 std::unique_ptr<HeadlessGl> HeadlessGl::make(std::string& why_not) {
     auto functions = std::make_unique<Functions>();
-    why_not = functions->open_display();
-    if (why_not.empty()) why_not = functions->make_context();
+    functions->context = GlContext::make(3, 3, why_not);
     if (why_not.empty() && !functions->find_all()) why_not = "OpenGL lacks functions of version 3.3";
     if (why_not.empty() && !functions->use_fetching_program()) why_not = "OpenGL links no program";
     if (!why_not.empty()) return nullptr;

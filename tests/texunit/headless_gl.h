@@ -1,4 +1,4 @@
-// OpenGL without a window, from whatever EGL library is installed, loaded at run time: a second decoder of blocks for the tests.
+// OpenGL without a window: a second decoder of blocks for the tests.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace rawtexel::texunit {
 
-/// A surfaceless context. One at a time; used by the thread that made it.
+/// Has a context of its own (tests/texunit/gl_context.h).
 class HeadlessGl {
   public:
     /// Null when there is none, with the reason.

@@ -132,6 +132,75 @@ TEST_P(SampleShapes, CubeMapsAgreeWithTheReference) {
     RecordProperty("worst_in_bounds", std::to_string(tally.worst) + tally.worst_case);
 }
 
+/// Lookups of generic coordinates and footprints, and what they come to against the reference: how many decide otherwise.
+class RandomShapes {
+  public:
+    RandomShapes(Texture& texture, uint32_t seed) : texture_(texture), image_(image_of(texture)), random_(seed) {}
+
+    /// `sample(sampler, lookups, colour)` looks a wave up, `ask(image, sampler, lookup, shift)` is the reference.
+    template <class Sample, class Ask>
+    void judge_all(const Sample& sample, const Ask& ask, Tally& tally) {
+        std::uniform_real_distribution<float> log_scale(-1, 7);
+        LookupDraw draw({texture_.shape().width, texture_.shape().height, texture_.shape().depth}, texture_.shape().levels, 11);
+        for (int wave = 0; wave < 4000; ++wave) {
+            // Narrow kernels mostly: they decide, wide ones take longer.
+            const Kernel minify = wave % 64 == 0 ? Kernel::BSpline : wave % 2 == 0 ? Kernel::Nearest : Kernel::Bilinear;
+            SamplerState sampler = draw_sampler(draw, minify, Wrap(draw.below(5)));
+            sampler.magnify = Kernel::Bilinear, sampler.minify = minify;
+            std::vector<Lookup3> lookups;
+            for (int i = 0; i < kWaveLanes; ++i) lookups.push_back(next(std::exp2(log_scale(random_))));
+            WaveColor colour;
+            sample(sampler, gather(lookups, 0), colour);
+            for (int i = 0; i < kWaveLanes; ++i) {
+                judge([&](const Shift& shift) { return ask(image_, sampler, lookups[size_t(i)], shift); }, sampler, lane_of(colour, i),
+                      describe(sampler) + describe(lookups[size_t(i)]), tally);
+                if (testing::Test::HasFatalFailure()) return;
+            }
+        }
+    }
+
+  private:
+    /// Derivatives of up to `texels`.
+    Lookup3 next(float texels) {
+        std::uniform_real_distribution<float> unit(-1, 1);
+        const float extents[3] = {float(texture_.shape().width), float(texture_.shape().height), float(texture_.shape().depth)};
+        Lookup3 lookup;
+        for (size_t axis = 0; axis < 3; ++axis) {
+            lookup.position[axis] = 2 * unit(random_);
+            lookup.dx[axis] = unit(random_) * texels / extents[axis];
+            lookup.dy[axis] = unit(random_) * texels / extents[axis];
+        }
+        return lookup;
+    }
+
+    Texture& texture_;
+    reference::ShapedImage image_;
+    std::mt19937 random_;
+};
+
+TEST(ShapeDecisions, OfVolumesDifferFromTheReferenceInAtMostOneOf100000RandomLookups) {
+    const auto texture = hashed_texture(Format::RGBA8Unorm, {.width = 100, .height = 60, .depth = 40});
+    Tally tally;
+    RandomShapes(*texture, 3)
+        .judge_all([&](const SamplerState& sampler, const WaveCoordinates3& at,
+                       WaveColor& colour) { sample_volume_wave(*texture, sampler, at, kWaveFull, colour); },
+                   reference::sample_volume, tally);
+    EXPECT_LE(tally.other_decisions * 100000, tally.lookups) << tally.other_decisions << " of " << tally.lookups;
+}
+
+TEST(ShapeDecisions, OfCubeMapsDifferFromTheReferenceInAtMostOneOf100000RandomLookups) {
+    const auto texture = hashed_texture(Format::RGBA8Unorm, {.width = 200, .height = 200, .layers = 6, .cube = true});
+    Tally tally;
+    RandomShapes(*texture, 4)
+        .judge_all([&](const SamplerState& sampler, const WaveCoordinates3& at,
+                       WaveColor& colour) { sample_cube_wave(*texture, sampler, at, kWaveFull, colour); },
+                   [](const reference::ShapedImage& image, const SamplerState& sampler, const Lookup3& lookup, const Shift& shift) {
+                       return reference::sample_cube(image, sampler, lookup, 0, shift);
+                   },
+                   tally);
+    EXPECT_LE(tally.other_decisions * 100000, tally.lookups) << tally.other_decisions << " of " << tally.lookups;
+}
+
 TEST_P(SampleShapes, ArraysReadTheNearestLayer) {
     const auto texture = hashed_texture(GetParam(), {.width = 20, .height = 11, .layers = 5});
     const reference::ShapedImage image = image_of(*texture);

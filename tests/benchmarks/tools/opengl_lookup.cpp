@@ -1,7 +1,6 @@
 #include "tests/benchmarks/tools/peer_lookup.h"
+#include "tests/texunit/gl_context.h"
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
 #define GL_GLEXT_PROTOTYPES
 #include <GL/glcorearb.h>
 
@@ -35,32 +34,6 @@ void main() {
     value = texture(image, at.uv + float(pixel.x & 1) * at.ddx + float(pixel.y & 1) * at.ddy).r;
 })";
 
-/// A context without a display, current as long as it lives.
-class Context {
-  public:
-    Context() {
-        setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
-        setenv("EGL_PLATFORM", "surfaceless", 1);
-        display_ = eglGetDisplay(EGL_DEFAULT_DISPLAY);
-        if (display_ == EGL_NO_DISPLAY || !eglInitialize(display_, nullptr, nullptr) || !eglBindAPI(EGL_OPENGL_API)) return;
-        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 3, EGL_NONE};
-        context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
-        usable_ = context_ != EGL_NO_CONTEXT && eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
-    }
-    ~Context() {
-        if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
-        if (display_ != EGL_NO_DISPLAY) eglTerminate(display_);
-    }
-    Context(const Context&) = delete;
-    Context& operator=(const Context&) = delete;
-    bool usable() const { return usable_; }
-
-  private:
-    EGLDisplay display_ = EGL_NO_DISPLAY;
-    EGLContext context_ = EGL_NO_CONTEXT;
-    bool usable_ = false;
-};
-
 GLuint compile() {
     const GLuint program = glCreateProgram();
     for (const auto& [kind, source] : {std::pair{GL_VERTEX_SHADER, kVertexShader}, {GL_FRAGMENT_SHADER, kFragmentShader}}) {
@@ -78,7 +51,7 @@ GLuint compile() {
 
 class OpenglSampler final : public PeerSampler {
   public:
-    OpenglSampler(std::unique_ptr<Context> context, const Pyramid& pyramid, int probes)
+    OpenglSampler(std::unique_ptr<texunit::GlContext> context, const Pyramid& pyramid, int probes)
         : context_(std::move(context)), program_(compile()) {
         GLuint texture = 0;
         glGenTextures(1, &texture);
@@ -147,15 +120,17 @@ class OpenglSampler final : public PeerSampler {
         return pixels;
     }
 
-    std::unique_ptr<Context> context_;
+    std::unique_ptr<texunit::GlContext> context_;
     GLuint program_;
 };
 
 }  // namespace
 
 std::unique_ptr<PeerSampler> make_opengl_sampler(const Pyramid& pyramid, int probes) {
-    auto context = std::make_unique<Context>();
-    if (!context->usable()) return nullptr;
+    setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+    std::string why_not;
+    auto context = texunit::GlContext::make(4, 3, why_not);
+    if (!context) return nullptr;
     return std::make_unique<OpenglSampler>(std::move(context), pyramid, probes);
 }
 
