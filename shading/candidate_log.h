@@ -5,6 +5,7 @@
 #include "texunit/wave.h"
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -13,7 +14,6 @@ namespace rawtexel::shading {
 /// Fragments of one triangle in one wave that passed the depth test against what was drawn before.
 struct LoggedCandidate {
     uint32_t setup_index;
-    uint32_t wave;              ///< in the tile, row by row
     texunit::WaveMask lanes;    ///< inside the frame's visible pixels
     texunit::WaveMask covered;  ///< those of them that alpha let stand
     texunit::WaveFloat depth;
@@ -24,20 +24,34 @@ class CandidateLog {
     /// Opaque candidates are kept too.
     bool keeps_opaque = false;
 
-    void clear() { entries_.clear(); }
+    void clear() {
+        entries_.clear();
+        order_.clear();
+    }
+    /// `wave`: in the tile, row by row.
     void add(const raster::CandidateWave& candidate, uint32_t wave, texunit::WaveMask lanes, texunit::WaveMask covered) {
         if (lanes == 0) return;
-        LoggedCandidate& entry = entries_.emplace_back(LoggedCandidate{candidate.setup_index, wave, lanes, covered, {}});
+        order_.push_back({wave, uint32_t(entries_.size())});
+        LoggedCandidate& entry = entries_.emplace_back(LoggedCandidate{candidate.setup_index, lanes, covered, {}});
         std::copy_n(candidate.depth, texunit::kWaveLanes, entry.depth.lane);
     }
-    /// By wave; within a wave in the order in which they were drawn.
-    const std::vector<LoggedCandidate>& sorted() {
-        std::ranges::stable_sort(entries_, {}, &LoggedCandidate::wave);
-        return entries_;
+
+    /// When all are there, and before for_each_in_wave.
+    void sort() { std::ranges::sort(order_); }
+    /// Calls use(const LoggedCandidate&) for the candidates of a wave in the order in which they were drawn.
+    template <class Use>
+    void for_each_in_wave(uint32_t wave, const Use& use) const {
+        for (const Place& place : std::ranges::equal_range(order_, wave, {}, &Place::wave)) use(entries_[place.entry]);
     }
 
   private:
+    // Sorted in place of the entries: those are large, and aligned more than the buffers of stable sorts are.
+    struct Place {
+        uint32_t wave, entry;
+        auto operator<=>(const Place&) const = default;
+    };
     std::vector<LoggedCandidate> entries_;
+    std::vector<Place> order_;
 };
 
 }  // namespace rawtexel::shading

@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <span>
 #include <vector>
 
 HWY_BEFORE_NAMESPACE();
@@ -60,19 +59,18 @@ class DemandedLookups {
     void tell_sample(uint32_t sample, raster::SampleOffset offset) {
         wave_.sample = sample;
         std::fill_n(offset_, texunit::kWaveLanes, offset);
-        const std::span<const LoggedCandidate> candidates = scratch_.candidates.sorted();
+        scratch_.candidates.sort();
         for (const WavePlace& place : waves_) {
             wave_.index = place.index;
             wave_.x = tile_x_ + place.x;
             wave_.y = tile_y_ + place.y;
             load_pixels(place);
-            const auto of_wave = std::ranges::equal_range(candidates, uint32_t(place.index), {}, &LoggedCandidate::wave);
             listener_.begin_wave(wave_);
-            if (inputs_.fetch_model == FetchModel::Visible) {
-                tell_visible(place, {of_wave.begin(), of_wave.end()});
-            } else {
-                for (const LoggedCandidate& candidate : of_wave) tell_drawn(candidate);
-            }
+            const bool visible = inputs_.fetch_model == FetchModel::Visible;
+            scratch_.candidates.for_each_in_wave(uint32_t(place.index), [&](const LoggedCandidate& candidate) HWY_ATTR {
+                visible ? tell_discarded(place, candidate) : tell_drawn(candidate);
+            });
+            if (visible) tell_surfaces();
             listener_.end_wave();
         }
         listener_.end_sample();
@@ -110,13 +108,14 @@ class DemandedLookups {
 
     // --- visible
 
-    void tell_visible(const WavePlace& place, std::span<const LoggedCandidate> candidates) {
-        for (const LoggedCandidate& candidate : candidates) {
-            asking_ = {};
-            asking_.base_color = discarded_before_surface(place, candidate);
-            set_triangle(candidate.setup_index);
-            tell(true);
-        }
+    void tell_discarded(const WavePlace& place, const LoggedCandidate& candidate) {
+        asking_ = {};
+        asking_.base_color = discarded_before_surface(place, candidate);
+        set_triangle(candidate.setup_index);
+        tell(true);
+    }
+
+    void tell_surfaces() {
         for (WaveMask rest = wave_.surface; rest != 0;) rest &= ~tell_surface(rest);
     }
 
