@@ -1,9 +1,10 @@
 // One texel a lookup: a probe, a level and a texel of the kernel, each drawn with a number of its own. Meaning: texunit/draw.h.
 #include "texunit/draw.h"
+#include "texunit/draw_axis-inl.h"
+#include "texunit/ellipse_reservoir-inl.h"
 #include "texunit/fetch_edges-inl.h"
 #include "texunit/footprint-inl.h"
 #include "texunit/probes-inl.h"
-#include "texunit/wide_taps-inl.h"
 
 #include <hwy/highway.h>
 
@@ -57,80 +58,12 @@ HWY_INLINE void draw_levels(const LevelChoice& choice, const WaveFloat& number, 
     }
 }
 
-/// The second tap of a pair, where the number is below its weight. Returns the lanes whose texel is beyond an edge.
-HWY_INLINE WaveMask draw_of_pair(const WaveInt (&texel)[2], const WaveFloat& fraction, const WaveMask (&outside)[2], bool leaves,
-                                 const WaveFloat& number, WaveInt& drawn) {
-    const FloatTag d;
-    const IntTag di;
-    WaveMask second = 0;
-    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto takes = hn::Load(d, number.lane + i) < hn::Load(d, fraction.lane + i);
-        const auto texels = hn::IfThenElse(hn::RebindMask(di, takes), hn::Load(di, texel[1].lane + i), hn::Load(di, texel[0].lane + i));
-        hn::Store(texels, di, drawn.lane + i);
-        if (leaves) second |= wave_mask(d, takes, i);
-    }
-    return leaves ? (second & outside[1]) | (~second & outside[0]) : 0;
-}
-
-/// Of the taps that weigh anything the last one before which the weights sum to no more than the number. Returns as draw_of_pair.
-HWY_INLINE WaveMask draw_of_axis(const AxisTaps& taps, const WaveFloat& number, WaveInt& drawn) {
-    const FloatTag d;
-    const IntTag di;
-    WaveMask border = 0;
-    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto random = hn::Load(d, number.lane + i);
-        auto before = hn::Zero(d);
-        auto texel = hn::Load(di, taps.texel[0].lane + i);
-        WaveMask outside = 0;
-        for (int k = 0; k < taps.count; ++k) {
-            const auto weight = hn::Load(d, taps.weight[k].lane + i);
-            const auto takes = hn::And(weight > hn::Zero(d), random >= before);
-            texel = hn::IfThenElse(hn::RebindMask(di, takes), hn::Load(di, taps.texel[k].lane + i), texel);
-            const WaveMask lanes = wave_mask(d, takes, i);
-            if (taps.leaves) outside = (outside & ~lanes) | (taps.outside[k] & lanes);
-            before = hn::Add(before, weight);
-        }
-        hn::Store(texel, di, drawn.lane + i);
-        border |= outside;
-    }
-    return border;
-}
-
-HWY_INLINE void draw_texels(const LevelTable& table, const SamplerState& sampler, const Kernel& kernel, WaveMask nearest,
-                            const WavePosition& at, const DrawNumbers& numbers, TexelDraw& draw) {
-    if (kernel.kind == KernelKind::Nearest || kernel.kind == KernelKind::Bilinear) {
-        TapWave<2> taps;
-        select_taps(table, sampler, at, draw.level, nearest, taps);
-        draw.border = draw_of_pair(taps.x, taps.fraction_x, taps.outside_x, taps.leaves, numbers.x, draw.x);
-        draw.border |= draw_of_pair(taps.y, taps.fraction_y, taps.outside_y, taps.leaves, numbers.y, draw.y);
-        return;
-    }
-    AxisTaps taps;
-    select_wide_axis(kernel, edge_rule(sampler.wrap_s), *at.u, table.width, draw.level, {sampler.precision, nullptr}, taps);
-    draw.border = draw_of_axis(taps, numbers.x, draw.x);
-    select_wide_axis(kernel, edge_rule(sampler.wrap_t), *at.v, table.height, draw.level, {sampler.precision, nullptr}, taps);
-    draw.border |= draw_of_axis(taps, numbers.y, draw.y);
-}
-
 HWY_INLINE void take_lanes(const TexelDraw& from, WaveMask lanes, TexelDraw& to) {
     to.border = (to.border & ~lanes) | (from.border & lanes);
     for (; lanes != 0; lanes &= lanes - 1) {
         const auto lane = int(hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes));
         to.x[lane] = from.x[lane], to.y[lane] = from.y[lane];
     }
-}
-
-/// Calls draw(kernel, result) with the kernel of the magnified lanes, that of the others, or both; take(other result, lanes) then mixes.
-template <class Result, class Draw, class Take>
-HWY_INLINE void draw_by_kernel(const SamplerState& sampler, const LevelChoice& choice, WaveMask mask, Result& result, const Draw& draw,
-                               const Take& take) {
-    const WaveMask magnified = choice.magnify & mask;
-    if (sampler.magnify == sampler.minify || magnified == mask) return draw(sampler.magnify, result);
-    draw(sampler.minify, result);
-    if (magnified == 0) return;
-    Result large = result;
-    draw(sampler.magnify, large);
-    take(large, magnified);
 }
 
 /// Moves the coordinates to the probe that each lane draws.
@@ -180,111 +113,180 @@ HWY_NOINLINE inline void draw_place(const LevelTable& table, const SamplerState&
     draw_levels(place.choice, numbers.level, place.level);
 }
 
-HWY_NOINLINE inline void draw_lanes(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask,
-                                    const DrawNumbers& numbers, TexelDraw& drawn) {
-    DrawnPlace place;
-    draw_place(table, sampler, at, numbers, place);
-    drawn.level = place.level;
-    const auto draw = [&](const Kernel& kernel, TexelDraw& texels) HWY_ATTR {
-        const WaveMask nearest = kernel.kind == KernelKind::Nearest ? kWaveFull : 0;
-        draw_texels(table, sampler, kernel, nearest, place.position, numbers, texels);
-    };
-    draw_by_kernel(sampler, place.choice, mask, drawn, draw,
-                   [&](const TexelDraw& large, WaveMask lanes) HWY_ATTR { take_lanes(large, lanes, drawn); });
-}
-
-/// Sums of an axis's positive weights and of its negative ones' magnitudes.
-struct SignedSums {
-    WaveFloat positive, negative;
+/// Which weights of a kernel a texel is drawn from.
+enum class Lobes {
+    Positive,   ///< the positive ones
+    Negative,   ///< the negative ones; where they sum to less than is asked for, the positive ones make up the rest
+    Magnitude,  ///< all, by their magnitudes
 };
 
-HWY_INLINE void sum_signs(const AxisTaps& taps, SignedSums& sums) {
+/// What lookups that share numbers tell each other of their negative weights.
+struct LobeMass {
+    const WaveFloat* wanted = nullptr;  ///< Lobes::Negative: the mass that is to be drawn, at least the lookup's own
+    /// Positive and Negative: gets the magnitudes' sum of the lookup's negative weights. Magnitude: that of all, with the sign of the drawn
+    /// one. Null where nobody asks.
+    WaveFloat* found = nullptr;
+};
+
+/// The taps of a kernel with negative lobes along both axes.
+struct SignedTaps {
+    AxisTaps x, y;
+    SignedSums sums_x, sums_y;
+};
+
+HWY_INLINE void select_axes(const LevelTable& table, const SamplerState& sampler, const Kernel& kernel, const DrawnPlace& place,
+                            AxisTaps& x, AxisTaps& y) {
+    const CoordinateReading reading{sampler.precision, nullptr};
+    select_wide_axis(kernel, edge_rule(sampler.wrap_s), *place.position.u, table.width, place.level, reading, x);
+    select_wide_axis(kernel, edge_rule(sampler.wrap_t), *place.position.v, table.height, place.level, reading, y);
+}
+
+HWY_INLINE void select_signed_axes(const LevelTable& table, const SamplerState& sampler, const Kernel& kernel, const DrawnPlace& place,
+                                   SignedTaps& taps) {
+    select_axes(table, sampler, kernel, place, taps.x, taps.y);
+    sum_signs(taps.x, taps.sums_x);
+    sum_signs(taps.y, taps.sums_y);
+}
+
+/// The four pairs of signs that the axes' weights can have, in the order in which they are drawn.
+inline constexpr int kSignPairs = 4;  // ++ -- +- -+
+inline constexpr bool kNegativeX[kSignPairs] = {false, true, false, true};
+inline constexpr bool kNegativeY[kSignPairs] = {false, true, true, false};
+
+/// Probabilities of the pairs for the lanes i .. , and the magnitudes' sum of the lookup's own negative weights. Lobes of no mass at all
+/// give 0 everywhere.
+struct SignShares {
+    FloatVec share[kSignPairs];
+    FloatVec negative_mass;
+};
+HWY_INLINE SignShares sign_shares(const SignedTaps& taps, Lobes lobes, const WaveFloat* wanted, size_t i) {
     const FloatTag d;
     const auto zero = hn::Zero(d);
-    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        auto positive = zero, negative = zero;
-        for (int k = 0; k < taps.count; ++k) {
-            const auto weight = hn::Load(d, taps.weight[k].lane + i);
-            positive = hn::Add(positive, hn::Max(weight, zero));
-            negative = hn::Add(negative, hn::Max(hn::Neg(weight), zero));
-        }
-        hn::Store(positive, d, sums.positive.lane + i);
-        hn::Store(negative, d, sums.negative.lane + i);
+    const auto px = hn::Load(d, taps.sums_x.positive.lane + i), nx = hn::Load(d, taps.sums_x.negative.lane + i);
+    const auto py = hn::Load(d, taps.sums_y.positive.lane + i), ny = hn::Load(d, taps.sums_y.negative.lane + i);
+    SignShares shares;
+    FloatVec(&share)[kSignPairs] = shares.share;
+    share[0] = hn::Mul(px, py), share[1] = hn::Mul(nx, ny);
+    share[2] = hn::Mul(px, ny), share[3] = hn::Mul(nx, py);
+    shares.negative_mass = hn::Add(share[2], share[3]);
+    if (lobes == Lobes::Positive) {
+        share[2] = share[3] = zero;
+    } else if (lobes == Lobes::Negative) {
+        const auto missing = hn::Max(hn::Sub(hn::Load(d, wanted->lane + i), shares.negative_mass), zero);
+        const auto scale = hn::Div(missing, hn::Add(share[0], share[1]));
+        share[0] = hn::Mul(share[0], scale), share[1] = hn::Mul(share[1], scale);
     }
+    const auto sum = hn::Add(hn::Add(share[0], share[1]), hn::Add(share[2], share[3]));
+    for (FloatVec& s : share) s = hn::IfThenElseZero(sum > zero, hn::Div(s, sum));
+    return shares;
 }
 
-/// The taps of one sign a lane, as weights that are not negative and sum to 1: what draw_of_axis takes.
-HWY_INLINE void keep_sign(const AxisTaps& taps, const SignedSums& sums, WaveMask negative, AxisTaps& kept) {
-    const FloatTag d;
-    kept.count = taps.count;
-    kept.leaves = taps.leaves;
-    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto flips = lanes_of(d, negative, i);
-        const auto sum = hn::IfThenElse(flips, hn::Load(d, sums.negative.lane + i), hn::Load(d, sums.positive.lane + i));
-        for (int k = 0; k < taps.count; ++k) {
-            const auto weight = hn::Load(d, taps.weight[k].lane + i);
-            const auto magnitude = hn::Max(hn::IfThenElse(flips, hn::Neg(weight), weight), hn::Zero(d));
-            hn::Store(hn::IfThenElseZero(sum > hn::Zero(d), hn::Div(magnitude, sum)), d, kept.weight[k].lane + i);
-            hn::Store(hn::Load(IntTag(), taps.texel[k].lane + i), IntTag(), kept.texel[k].lane + i);
-        }
-    }
-    std::copy_n(taps.outside, taps.count, kept.outside);
-}
-
-/// Draws from weights whose signs are equal on both axes (`mixed` false: ++ or --) or not (+- or -+), and tells their sum.
-HWY_INLINE void draw_signs(const AxisTaps& x, const AxisTaps& y, const SignedSums& sums_x, const SignedSums& sums_y, bool mixed,
-                           const DrawNumbers& numbers, TexelDraw& draw, WaveFloat& total) {
-    const FloatTag d;
+/// Signs of the two axes' weights, one bit a lane.
+struct DrawnSigns {
     WaveMask negative_x = 0, negative_y = 0;
+};
+HWY_INLINE DrawnSigns draw_signs(const SignedTaps& taps, Lobes lobes, const LobeMass& mass, const WaveFloat& number) {
+    const FloatTag d;
+    DrawnSigns signs;
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto px = hn::Load(d, sums_x.positive.lane + i), nx = hn::Load(d, sums_x.negative.lane + i);
-        const auto py = hn::Load(d, sums_y.positive.lane + i), ny = hn::Load(d, sums_y.negative.lane + i);
-        const auto first = hn::Mul(px, mixed ? ny : py), second = hn::Mul(nx, mixed ? py : ny);
-        const auto sum = hn::Add(first, second);
-        hn::Store(sum, d, total.lane + i);
-        // Rounding may take the product up to the sum, and must not take a pair that weighs nothing.
-        const auto takes_second = hn::And(hn::Mul(hn::Load(d, numbers.sign.lane + i), sum) >= first, second > hn::Zero(d));
-        const WaveMask lanes = wave_mask(d, takes_second, i);
-        const WaveMask all = wave_mask(d, hn::Eq(sum, sum), i);
-        negative_x |= lanes;
-        negative_y |= mixed ? all & ~lanes : lanes;
+        const SignShares shares = sign_shares(taps, lobes, mass.wanted, i);
+        if (mass.found != nullptr) hn::Store(shares.negative_mass, d, mass.found->lane + i);
+        const auto random = hn::Load(d, number.lane + i);
+        auto before = hn::Zero(d);
+        for (int pair = 0; pair < kSignPairs; ++pair) {
+            const auto takes = hn::And(shares.share[pair] > hn::Zero(d), random >= before);
+            const WaveMask lanes = wave_mask(d, takes, i);
+            signs.negative_x = kNegativeX[pair] ? signs.negative_x | lanes : signs.negative_x & ~lanes;
+            signs.negative_y = kNegativeY[pair] ? signs.negative_y | lanes : signs.negative_y & ~lanes;
+            before = hn::Add(before, shares.share[pair]);
+        }
     }
-    AxisTaps kept;
-    keep_sign(x, sums_x, negative_x, kept);
-    draw.border = draw_of_axis(kept, numbers.x, draw.x);
-    keep_sign(y, sums_y, negative_y, kept);
-    draw.border |= draw_of_axis(kept, numbers.y, draw.y);
+    return signs;
+}
+
+/// By magnitude, axis by axis.
+HWY_INLINE void draw_magnitude(const SignedTaps& taps, const DrawNumbers& numbers, WaveFloat* factor, TexelDraw& draw) {
+    const FloatTag d;
+    draw.border = draw_of_axis(taps.x, OfMagnitude(taps.sums_x), numbers.x, draw.x);
+    draw.border |= draw_of_axis(taps.y, OfMagnitude(taps.sums_y), numbers.y, draw.y);
+    if (factor == nullptr) return;
+    const WaveMask negative = negative_lanes(taps.x, taps.sums_x, numbers.x) ^ negative_lanes(taps.y, taps.sums_y, numbers.y);
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        const auto sum_x = hn::Add(hn::Load(d, taps.sums_x.positive.lane + i), hn::Load(d, taps.sums_x.negative.lane + i));
+        const auto sum_y = hn::Add(hn::Load(d, taps.sums_y.positive.lane + i), hn::Load(d, taps.sums_y.negative.lane + i));
+        const auto sum = hn::Mul(sum_x, sum_y);
+        hn::Store(hn::IfThenElse(lanes_of(d, negative, i), hn::Neg(sum), sum), d, factor->lane + i);
+    }
 }
 
 HWY_NOINLINE inline void draw_signed_texels(const LevelTable& table, const SamplerState& sampler, const Kernel& kernel,
-                                            const WavePosition& at, const DrawNumbers& positive, const DrawNumbers& negative,
-                                            SignedDraw& draw) {
-    AxisTaps x, y;
-    select_wide_axis(kernel, edge_rule(sampler.wrap_s), *at.u, table.width, draw.positive.level, {sampler.precision, nullptr}, x);
-    select_wide_axis(kernel, edge_rule(sampler.wrap_t), *at.v, table.height, draw.positive.level, {sampler.precision, nullptr}, y);
-    SignedSums sums_x, sums_y;
-    sum_signs(x, sums_x);
-    sum_signs(y, sums_y);
-    draw_signs(x, y, sums_x, sums_y, false, positive, draw.positive, draw.positive_weight);
-    draw_signs(x, y, sums_x, sums_y, true, negative, draw.negative, draw.negative_weight);
+                                            const DrawnPlace& place, const DrawNumbers& numbers, Lobes lobes, const LobeMass& mass,
+                                            TexelDraw& draw) {
+    SignedTaps taps;
+    select_signed_axes(table, sampler, kernel, place, taps);
+    if (lobes == Lobes::Magnitude) return draw_magnitude(taps, numbers, mass.found, draw);
+    const DrawnSigns signs = draw_signs(taps, lobes, mass, numbers.sign);
+    draw.border = draw_of_axis(taps.x, OfOneSign(taps.sums_x, signs.negative_x), numbers.x, draw.x);
+    draw.border |= draw_of_axis(taps.y, OfOneSign(taps.sums_y, signs.negative_y), numbers.y, draw.y);
 }
 
-HWY_NOINLINE inline void draw_signed_lanes(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask,
-                                           const DrawNumbers& positive, const DrawNumbers& negative, SignedDraw& drawn) {
-    DrawnPlace place;
-    draw_place(table, sampler, at, positive, place);
-    drawn.positive.level = drawn.negative.level = place.level;
-    const auto draw = [&](const Kernel& kernel, SignedDraw& texels)
-                          HWY_ATTR { draw_signed_texels(table, sampler, kernel, place.position, positive, negative, texels); };
-    draw_by_kernel(sampler, place.choice, mask, drawn, draw, [&](const SignedDraw& large, WaveMask lanes) HWY_ATTR {
-        take_lanes(large.positive, lanes, drawn.positive);
-        take_lanes(large.negative, lanes, drawn.negative);
-        for (; lanes != 0; lanes &= lanes - 1) {
-            const auto lane = int(hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes));
-            drawn.positive_weight[lane] = large.positive_weight[lane];
-            drawn.negative_weight[lane] = large.negative_weight[lane];
+HWY_INLINE void draw_jittered_texels(const LevelTable& table, const SamplerState& sampler, const Kernel& kernel, const DrawnPlace& place,
+                                     const DrawNumbers& numbers, TexelDraw& draw) {
+    const auto axis =
+        [&](Wrap wrap, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents, const WaveFloat& number, WaveInt& texel)
+            HWY_ATTR { return jitter_axis(kernel, wrap, coordinate, extents, place.level, sampler.precision, number, texel); };
+    draw.border = axis(sampler.wrap_s, *place.position.u, table.width, numbers.x, draw.x);
+    draw.border |= axis(sampler.wrap_t, *place.position.v, table.height, numbers.y, draw.y);
+}
+
+/// A texel of `kernel` for every lane.
+HWY_INLINE void draw_texels(const LevelTable& table, const SamplerState& sampler, const Kernel& kernel, const DrawnPlace& place,
+                            const DrawNumbers& numbers, Lobes lobes, const LobeMass& mass, TexelDraw& draw) {
+    if (!weighs_as_probability(kernel)) return draw_signed_texels(table, sampler, kernel, place, numbers, lobes, mass, draw);
+    if (mass.found != nullptr) std::fill_n(mass.found->lane, kWaveLanes, lobes == Lobes::Magnitude ? 1.0f : 0.0f);
+    if (sampler.estimator == Estimator::Jitter) return draw_jittered_texels(table, sampler, kernel, place, numbers, draw);
+    if (kernel.kind == KernelKind::Nearest || kernel.kind == KernelKind::Bilinear) {
+        TapWave<2> taps;
+        select_taps(table, sampler, place.position, place.level, kernel.kind == KernelKind::Nearest ? kWaveFull : 0, taps);
+        draw.border = draw_of_pair(taps.x, taps.fraction_x, taps.outside_x, taps.leaves, numbers.x, draw.x);
+        draw.border |= draw_of_pair(taps.y, taps.fraction_y, taps.outside_y, taps.leaves, numbers.y, draw.y);
+        return;
+    }
+    AxisTaps x, y;
+    select_axes(table, sampler, kernel, place, x, y);
+    draw.border = draw_of_axis(x, AsProbabilities(), numbers.x, draw.x);
+    draw.border |= draw_of_axis(y, AsProbabilities(), numbers.y, draw.y);
+}
+
+/// Draws for all lanes, of which those outside `mask` repeat an active one; `draw.slice` is the caller's.
+HWY_NOINLINE inline void draw_lanes(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask,
+                                    const DrawNumbers& numbers, Lobes lobes, const LobeMass& mass, TexelDraw& draw) {
+    if (sampler.ellipse > 0) {
+        if (mass.found != nullptr) std::fill_n(mass.found->lane, kWaveLanes, lobes == Lobes::Magnitude ? 1.0f : 0.0f);
+        // Streaming weighs every texel; offsets need none.
+        if (sampler.estimator == Estimator::Reservoir) {
+            stream_ellipses(table, sampler, at, mask, numbers, draw);
+        } else {
+            jitter_ellipses(table, sampler, at, mask, numbers, draw);
         }
-    });
+        return repeat_first_draw(mask, draw);
+    }
+    DrawnPlace place;
+    draw_place(table, sampler, at, numbers, place);
+    draw.level = place.level;
+    const WaveMask magnified = place.choice.magnify & mask;
+    const bool one_kernel = sampler.magnify == sampler.minify || magnified == 0 || magnified == mask;
+    const Kernel& most = magnified == mask ? sampler.magnify : sampler.minify;
+    draw_texels(table, sampler, most, place, numbers, lobes, mass, draw);
+    if (one_kernel) return;
+    TexelDraw large;
+    WaveFloat found;
+    draw_texels(table, sampler, sampler.magnify, place, numbers, lobes, {mass.wanted, mass.found != nullptr ? &found : nullptr}, large);
+    take_lanes(large, magnified, draw);
+    for (WaveMask lanes = magnified; mass.found != nullptr && lanes != 0; lanes &= lanes - 1) {
+        const auto lane = int(hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes));
+        (*mass.found)[lane] = found[lane];
+    }
 }
 
 template <StorageClass storage>

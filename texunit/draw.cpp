@@ -1,5 +1,6 @@
 #include "texunit/draw.h"
 
+#include <algorithm>
 #include <cassert>
 
 #undef HWY_TARGET_INCLUDE
@@ -8,6 +9,7 @@
 
 #include "texunit/draw-inl.h"
 #include "texunit/random-inl.h"
+#include "texunit/shared_draw-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rawtexel::texunit {
@@ -52,19 +54,29 @@ const WaveCoordinates& prepare(const Texture& texture, const WaveCoordinates& at
     return filled;
 }
 
+void draw(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
+          TexelDraw& drawn, const WaveFloat* layer) {
+    WaveCoordinates filled;
+    const WaveCoordinates& coordinates = prepare(texture, at, mask, layer, filled, drawn.slice);
+    draw_lanes(texture.levels(), sampler, coordinates, mask, numbers, Lobes::Positive, {}, drawn);
+}
+
 void draw_signed(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& positive,
                  const DrawNumbers& negative, SignedDraw& drawn, const WaveFloat* layer) {
     WaveCoordinates filled;
     const WaveCoordinates& coordinates = prepare(texture, at, mask, layer, filled, drawn.positive.slice);
     drawn.negative.slice = drawn.positive.slice;
-    draw_signed_lanes(texture.levels(), sampler, coordinates, mask, positive, negative, drawn);
+    WaveFloat& mass = drawn.negative_weight;
+    draw_lanes(texture.levels(), sampler, coordinates, mask, positive, Lobes::Positive, {nullptr, &mass}, drawn.positive);
+    draw_lanes(texture.levels(), sampler, coordinates, mask, negative, Lobes::Negative, {&mass, nullptr}, drawn.negative);
+    for (int lane = 0; lane < kWaveLanes; ++lane) drawn.positive_weight[lane] = 1 + mass[lane];
 }
 
-void draw(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
-          TexelDraw& drawn, const WaveFloat* layer) {
+void draw_absolute(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
+                   TexelDraw& drawn, WaveFloat& factor, const WaveFloat* layer) {
     WaveCoordinates filled;
     const WaveCoordinates& coordinates = prepare(texture, at, mask, layer, filled, drawn.slice);
-    draw_lanes(texture.levels(), sampler, coordinates, mask, numbers, drawn);
+    draw_lanes(texture.levels(), sampler, coordinates, mask, numbers, Lobes::Magnitude, {nullptr, &factor}, drawn);
 }
 
 void read(Texture& texture, const SamplerState& sampler, const TexelDraw& drawn, WaveColor& out) {
@@ -78,6 +90,11 @@ void draw_and_read(Texture& texture, const SamplerState& sampler, const WaveCoor
     read_drawn_lanes(texture, sampler, drawn, out);
 }
 
+void draw_together(const LookupSet& set, const DrawNumbers& positive, const DrawNumbers& negative, const UseTap& use) {
+    draw_set(set, positive, negative, use);
+}
+void enumerate(const LookupSet& set, const UseTap& use) { enumerate_set(set, use); }
+
 }  // namespace HWY_NAMESPACE
 }  // namespace rawtexel::texunit
 HWY_AFTER_NAMESPACE();
@@ -88,33 +105,32 @@ namespace rawtexel::texunit {
 HWY_EXPORT(hash_numbers);
 HWY_EXPORT(draw);
 HWY_EXPORT(draw_signed);
+HWY_EXPORT(draw_absolute);
 HWY_EXPORT(read);
 HWY_EXPORT(draw_and_read);
+HWY_EXPORT(draw_together);
+HWY_EXPORT(enumerate);
 
 void draw_numbers(const RandomAddress& first, DrawNumbers& numbers) { HWY_DYNAMIC_DISPATCH(hash_numbers)(first, false, numbers); }
 void negative_draw_numbers(const RandomAddress& first, DrawNumbers& numbers) { HWY_DYNAMIC_DISPATCH(hash_numbers)(first, true, numbers); }
 
-bool weighs_as_probability(const Kernel& kernel) {
-    switch (kernel.kind) {
-        case KernelKind::Mitchell: return kernel.c == 0 && kernel.b >= 1 && kernel.b <= 1;
-        case KernelKind::CatmullRom:
-        case KernelKind::Lanczos2:
-        case KernelKind::Lanczos3: return false;
-        default: return true;
-    }
-}
-
 void draw_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
                TexelDraw& drawn, const WaveFloat* layer) {
-    assert(mask != 0 && texture.shape().depth == 1 && sampler.ellipse <= 0);
+    assert(mask != 0 && texture.shape().depth == 1);
     assert(weighs_as_probability(sampler.magnify) && weighs_as_probability(sampler.minify));
     HWY_DYNAMIC_DISPATCH(draw)(texture, sampler, at, mask, numbers, drawn, layer);
 }
 
 void draw_signed_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& positive,
                       const DrawNumbers& negative, SignedDraw& drawn, const WaveFloat* layer) {
-    assert(mask != 0 && texture.shape().depth == 1 && sampler.ellipse <= 0);
+    assert(mask != 0 && texture.shape().depth == 1);
     HWY_DYNAMIC_DISPATCH(draw_signed)(texture, sampler, at, mask, positive, negative, drawn, layer);
+}
+
+void draw_absolute_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
+                        TexelDraw& drawn, WaveFloat& factor, const WaveFloat* layer) {
+    assert(mask != 0 && texture.shape().depth == 1);
+    HWY_DYNAMIC_DISPATCH(draw_absolute)(texture, sampler, at, mask, numbers, drawn, factor, layer);
 }
 
 void read_drawn_wave(Texture& texture, const SamplerState& sampler, const TexelDraw& drawn, WaveColor& out) {
@@ -123,9 +139,19 @@ void read_drawn_wave(Texture& texture, const SamplerState& sampler, const TexelD
 
 void sample_drawn_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
                        WaveColor& out, const WaveFloat* layer) {
-    assert(mask != 0 && texture.shape().depth == 1 && sampler.ellipse <= 0);
+    assert(mask != 0 && texture.shape().depth == 1);
     assert(weighs_as_probability(sampler.magnify) && weighs_as_probability(sampler.minify));
     HWY_DYNAMIC_DISPATCH(draw_and_read)(texture, sampler, at, mask, numbers, out, layer);
+}
+
+void draw_shared(const LookupSet& set, const DrawNumbers& positive, const DrawNumbers& negative, const UseTap& use) {
+    HWY_DYNAMIC_DISPATCH(draw_together)(set, positive, negative, use);
+}
+void enumerate_shared(const LookupSet& set, const UseTap& use) { HWY_DYNAMIC_DISPATCH(enumerate)(set, use); }
+
+bool can_enumerate(const LookupSet& set) {
+    if (set.count == 1) return true;
+    return std::none_of(set.lookup, set.lookup + set.count, [](const SharedLookup& lookup) { return lookup.sampler->ellipse > 0; });
 }
 
 }  // namespace rawtexel::texunit

@@ -1,5 +1,6 @@
-// A lookup of one texel, drawn with the probability that its filter weighs it with: filter reservoir sampling (Wyman et al. 2024,
-// "Filtering After Shading With Stochastic Texture Filtering"). The mean of many draws is what sample_wave returns.
+// A lookup of one texel, drawn with the probability that its filter weighs it with (Pharr, Wronski, Salvi and Fajardo 2024, "Filtering
+// After Shading With Stochastic Texture Filtering"). The mean of many draws is what sample_wave returns. Lookups that share their numbers,
+// such as the maps of a material, are drawn together by texunit/shared_draw.h.
 #pragma once
 
 #include "texunit/random.h"
@@ -7,12 +8,13 @@
 
 namespace rawtexel::texunit {
 
-/// Uniform numbers in [0, 1), one a lane for each choice and independent of each other. Maps that share them read the same texel.
+/// Uniform numbers in [0, 1), one a lane for each choice and independent of each other. Maps that share them read the same texel. Texels
+/// rise with their numbers; the coarser level is drawn where the number is below its weight.
 struct DrawNumbers {
     WaveFloat x, y;   ///< the texel along either axis (Dimension::TapX, TapY)
     WaveFloat level;  ///< the coarser level or the finer (Dimension::Level)
     WaveFloat probe;  ///< of an anisotropic lookup (Dimension::Probe)
-    WaveFloat sign;   ///< of SignedDraw: which signs the axes' weights have (Dimension::Sign)
+    WaveFloat sign;   ///< of kernels with negative lobes: which signs the axes' weights have (Dimension::Sign)
 };
 
 /// The numbers of a wave whose upper left pixel is (first.x, first.y); first.dimension is not looked at.
@@ -26,20 +28,19 @@ struct TexelDraw {
     WaveMask border = 0;  ///< lanes that take the border colour
 };
 
-/// Positivization of kernels with negative lobes (Wyman et al. 2024): one texel drawn from the positive weights and one from the magnitudes
-/// of the negative ones. The lookup's value is positive_weight*S(positive) - negative_weight*S(negative), whatever S makes of a texel; the
-/// weights are the sums of either sign, so their difference is 1 and a constant has no variance. Where negative_weight is 0 (on a texel's
-/// centre, or for kernels without negative lobes) the negative texel means nothing and may be read all the same.
+/// Positivization of kernels with negative lobes (Pharr et al. 2024): one texel drawn from the positive weights and one from the magnitudes
+/// of the negative ones. The lookup's value is positive_weight*S(positive) - negative_weight*S(negative), whatever S makes of a texel.
+/// negative_weight is the sum of the negative weights' magnitudes and positive_weight is 1 + negative_weight, so a constant has no
+/// variance. Where negative_weight is 0 (on a texel's centre, or for kernels without negative lobes) the negative texel means nothing and
+/// may be read all the same.
 struct SignedDraw {
     TexelDraw positive, negative;
     WaveFloat positive_weight, negative_weight;
 };
 
-/// Whether all weights of the kernel are probabilities. Others need two draws, one for either sign.
-bool weighs_as_probability(const Kernel& kernel);
-
-/// Draws for the lanes of `mask` in a 2-D texture, or in `layer` of an array; reads no texel. The kernels' weights are probabilities
-/// (asserted), and sampler.ellipse is 0. Levels, probes and kernels are chosen as by sample_wave; other lanes repeat an active one.
+/// Draws for the lanes of `mask` in a 2-D texture, or in `layer` of an array, as sampler.estimator says (All draws as Reservoir does);
+/// reads no texel. The kernels' weights are probabilities (asserted). Levels, probes and kernels are chosen as by sample_wave; where
+/// sampler.ellipse is positive the draw is from the ellipse. Other lanes repeat an active one.
 void draw_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
                TexelDraw& draw, const WaveFloat* layer = nullptr);
 
@@ -47,6 +48,11 @@ void draw_wave(Texture& texture, const SamplerState& sampler, const WaveCoordina
 /// sign.
 void draw_signed_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& positive,
                       const DrawNumbers& negative, SignedDraw& draw, const WaveFloat* layer = nullptr);
+
+/// One texel of a kernel of any sign, drawn by the magnitude of its weight: the lookup's value is factor*S(texel), factor being the sum of
+/// the magnitudes times the weight's sign. Unbiased, but noisy even on a constant.
+void draw_absolute_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
+                        TexelDraw& draw, WaveFloat& factor, const WaveFloat* layer = nullptr);
 
 /// The drawn texels, linear RGBA. Throws TextureError as sample_wave does.
 void read_drawn_wave(Texture& texture, const SamplerState& sampler, const TexelDraw& draw, WaveColor& out);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace rawtexel::texunit {
@@ -129,6 +130,13 @@ Ellipse make_ellipse(const LevelTable& table, const SamplerState& sampler, const
     e.last_row = int(std::floor(e.y + high));
     e.across = &quadrature_for(std::sqrt(e.a / e.determinant));
     return e;
+}
+
+double roomy_level(const LevelTable& table, const SamplerState& sampler, const EllipseLookup& at) {
+    Shear shear;
+    if (!shear_of(table, at, shear)) return std::numeric_limits<double>::infinity();
+    // S2*minor^2 - (2*4^l - 3)/12 = 4^l/12.
+    return std::log2(1 + 4 * double(sampler.ellipse) * shear.least) / 2;
 }
 
 EllipseSpan ellipse_span(const Ellipse& e, int row) {

@@ -46,6 +46,10 @@ struct EllipseLookup {
 /// level. At most some 1.1*kMostEllipseTexels texels and always at least one.
 Ellipse make_ellipse(const LevelTable& table, const SamplerState& sampler, const EllipseLookup& at);
 
+/// The coarsest level that leaves room for the minor axis of S2*J*J^T + I/6, as a real number >= 0: there the covariance that make_ellipse
+/// leaves along that axis is the variance of the level's own texel box. Infinite where a derivative is not finite.
+double roomy_level(const LevelTable& table, const SamplerState& sampler, const EllipseLookup& at);
+
 /// Columns of `row` that the cut ellipse touches, all counted from the centre's texel; last < first where there are none.
 struct EllipseSpan {
     int first, last;

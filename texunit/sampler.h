@@ -1,9 +1,11 @@
 // Sampler state: which kernel, which levels, how coordinates wrap. Plain data with one spelling for command line, JSON and tests.
 #pragma once
 
+#include "texunit/estimator.h"
 #include "texunit/kernel.h"
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -31,6 +33,10 @@ struct SamplerState {
     int probes = 1;               ///< most anisotropic probes, 1..64
     float probe_variance = 0.0f;  ///< S2 > 0: probes and level of total covariance S2*J*J^T + I/6; 0: probes by the D3D and Vulkan rule
     float ellipse = 0.0f;         ///< S2 > 0: filter by the exact ellipse of covariance S2*J*J^T + I/6 instead, over level 0
+    Estimator estimator = Estimator::All;  ///< how draws are made (texunit/draw.h); sample_wave weighs every tap whatever it says
+    /// Of drawn ellipses: how much finer than the coarsest level that leaves room for the minor axis they draw, levels >= 0; what that
+    /// level has not filtered goes into the draw. Infinite: level 0.
+    float hybrid_bias = std::numeric_limits<float>::infinity();
     LodRule lod_rule = LodRule::D3d;
     Precision precision = Precision::Exact;
     float lod_bias = 0.0f;                    ///< added to lambda before it is clamped

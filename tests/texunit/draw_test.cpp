@@ -5,63 +5,22 @@
 #include "texunit/memory_source.h"
 #include "texunit/random.h"
 #include "tests/reference/texunit/kernel_reference.h"
+#include "tests/texunit/drawn_places.h"
 #include "tests/texunit/hashed_source.h"
 #include "texunit/simd.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 #include <random>
-#include <tuple>
 
 namespace rawtexel::texunit {
 namespace {
-
-/// level, slice, x, y; a border is level -1.
-using Place = std::tuple<int, int, int, int>;
 
 DrawNumbers random_numbers(uint32_t sample) {
     DrawNumbers numbers;
     draw_numbers({.x = 0, .y = 8, .sample = sample}, numbers);
     return numbers;
-}
-
-WaveCoordinates everywhere(const LaneCoordinates& at) {
-    WaveCoordinates wave;
-    for (int lane = 0; lane < kWaveLanes; ++lane) {
-        wave.u[lane] = at.u, wave.v[lane] = at.v;
-        wave.dudx[lane] = at.dudx, wave.dvdx[lane] = at.dvdx, wave.dudy[lane] = at.dudy, wave.dvdy[lane] = at.dvdy;
-    }
-    return wave;
-}
-
-Place place_of(const TexelDraw& draw, int lane) {
-    if ((draw.border >> lane & 1) != 0) return {-1, 0, 0, 0};
-    return {draw.level[lane], draw.slice[lane], draw.x[lane], draw.y[lane]};
-}
-
-/// Chi-square against the weights of the deterministic lookup, as a normal deviate (Wilson and Hilferty 1931); cells of few draws are
-/// joined.
-double chi_square_deviate(const std::map<Place, double>& weights, const std::map<Place, double>& drawn, double draws) {
-    double statistic = 0, joined_expected = 0, joined_drawn = 0;
-    int cells = 0;
-    const auto add = [&](double expected, double found) {
-        statistic += (found - expected) * (found - expected) / expected;
-        ++cells;
-    };
-    for (const auto& [place, weight] : weights) {
-        const auto found = drawn.find(place);
-        const double count = found == drawn.end() ? 0 : found->second;
-        if (weight * draws < 20) {
-            joined_expected += weight * draws, joined_drawn += count;
-        } else {
-            add(weight * draws, count);
-        }
-    }
-    if (joined_expected > 5) add(joined_expected, joined_drawn);
-    const double freedom = std::max(cells - 1, 1), share = 2 / (9 * freedom);
-    return (std::cbrt(statistic / freedom) - (1 - share)) / std::sqrt(share);
 }
 
 TEST(Draw, PicksTexelsWithTheProbabilityOfTheirWeights) {
@@ -87,8 +46,7 @@ TEST(Draw, PicksTexelsWithTheProbabilityOfTheirWeights) {
                                              0.09f * unit(random), 0.01f * unit(random), 0.02f * unit(random)};
                     const LookupTrace trace = trace_lookup(texture, sampler, at);
                     std::map<Place, double> weights, drawn;
-                    for (const TracedTap& tap : trace.taps)
-                        weights[tap.border ? Place{-1, 0, 0, 0} : Place{tap.level, tap.slice, tap.x, tap.y}] += tap.weight;
+                    for (const TracedTap& tap : trace.taps) weights[place_of(tap)] += tap.weight;
                     TexelDraw draw;
                     for (uint32_t n = 0; n < kWaves; ++n) {
                         draw_wave(texture, sampler, everywhere(at), kWaveFull, random_numbers(uint32_t(cases) * kWaves + n), draw);
@@ -172,7 +130,7 @@ TEST(SignedDraw, PicksTexelsOfEitherSignWithTheProbabilityOfTheirWeights) {
                 double sums[2] = {};
                 for (const TracedTap& tap : trace_lookup(texture, sampler, at).taps) {
                     const int side = tap.weight < 0;
-                    weights[side][tap.border ? Place{-1, 0, 0, 0} : Place{tap.level, tap.slice, tap.x, tap.y}] += std::abs(tap.weight);
+                    weights[side][place_of(tap)] += std::abs(tap.weight);
                     sums[side] += std::abs(tap.weight);
                 }
                 // Levels and probes are drawn first, and weigh either sign by their own sums: the expectation is what the weights say.
@@ -331,14 +289,6 @@ TEST_P(DrawOnSimd, PicksTheSameTexelsAndReadsThem) {
 
 INSTANTIATE_TEST_SUITE_P(All, DrawOnSimd, testing::ValuesIn(available_simd()),
                          [](const auto& tested) { return std::string(to_string(tested.param)); });
-
-TEST(Draw, KnowsWhichKernelsAreProbabilities) {
-    for (const Kernel& kernel :
-         {Kernel::Nearest, Kernel::Bilinear, Kernel::Quadratic, Kernel::BSpline, Kernel::gaussian(), Kernel::mitchell(1, 0)})
-        EXPECT_TRUE(weighs_as_probability(kernel)) << to_string(kernel);
-    for (const Kernel& kernel : {Kernel::mitchell(), Kernel::CatmullRom, Kernel::Lanczos2, Kernel::Lanczos3})
-        EXPECT_FALSE(weighs_as_probability(kernel)) << to_string(kernel);
-}
 
 }  // namespace
 }  // namespace rawtexel::texunit

@@ -1,0 +1,169 @@
+// A draw along one axis: of two taps, of many, of those of one sign, or by a jittered coordinate.
+#include "texunit/draw_jitter-inl.h"
+#include "texunit/wide_taps-inl.h"
+
+#include <hwy/highway.h>
+
+// Included once per instruction set (highway's guard for -inl.h files).
+#if defined(RAWTEXEL_TEXUNIT_DRAW_AXIS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RAWTEXEL_TEXUNIT_DRAW_AXIS_INL_H_
+#undef RAWTEXEL_TEXUNIT_DRAW_AXIS_INL_H_
+#else
+#define RAWTEXEL_TEXUNIT_DRAW_AXIS_INL_H_
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace rawtexel::texunit {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The second tap of a pair, where the number is not below the weight of the first. Returns the lanes whose texel is beyond an edge.
+HWY_INLINE WaveMask draw_of_pair(const WaveInt (&texel)[2], const WaveFloat& fraction, const WaveMask (&outside)[2], bool leaves,
+                                 const WaveFloat& number, WaveInt& drawn) {
+    const FloatTag d;
+    const IntTag di;
+    WaveMask second = 0;
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        const auto first_weight = hn::Sub(hn::Set(d, 1.0f), hn::Load(d, fraction.lane + i));
+        const auto takes = hn::Load(d, number.lane + i) >= first_weight;
+        const auto texels = hn::IfThenElse(hn::RebindMask(di, takes), hn::Load(di, texel[1].lane + i), hn::Load(di, texel[0].lane + i));
+        hn::Store(texels, di, drawn.lane + i);
+        if (leaves) second |= wave_mask(d, takes, i);
+    }
+    return leaves ? (second & outside[1]) | (~second & outside[0]) : 0;
+}
+
+/// Sums of an axis's positive weights and of its negative ones' magnitudes.
+struct SignedSums {
+    WaveFloat positive, negative;
+};
+
+HWY_INLINE void sum_signs(const AxisTaps& taps, SignedSums& sums) {
+    const FloatTag d;
+    const auto zero = hn::Zero(d);
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        auto positive = zero, negative = zero;
+        for (int k = 0; k < taps.count; ++k) {
+            const auto weight = hn::Load(d, taps.weight[k].lane + i);
+            positive = hn::Add(positive, hn::Max(weight, zero));
+            negative = hn::Add(negative, hn::Max(hn::Neg(weight), zero));
+        }
+        hn::Store(positive, d, sums.positive.lane + i);
+        hn::Store(negative, d, sums.negative.lane + i);
+    }
+}
+
+/// What turns an axis's weights into probabilities: the weights themselves, or those of one sign over their sum.
+class AsProbabilities {
+  public:
+    HWY_INLINE FloatVec operator()(FloatVec weight, size_t) const { return weight; }
+};
+class OfOneSign {
+  public:
+    /// Lanes of `negative` take the negative weights.
+    OfOneSign(const SignedSums& sums, WaveMask negative) : sums_(sums), negative_(negative) {}
+    HWY_INLINE FloatVec operator()(FloatVec weight, size_t i) const {
+        const FloatTag d;
+        const auto flips = lanes_of(d, negative_, i);
+        const auto sum = hn::IfThenElse(flips, hn::Load(d, sums_.negative.lane + i), hn::Load(d, sums_.positive.lane + i));
+        const auto magnitude = hn::Max(hn::IfThenElse(flips, hn::Neg(weight), weight), hn::Zero(d));
+        return hn::IfThenElseZero(sum > hn::Zero(d), hn::Div(magnitude, sum));
+    }
+
+  private:
+    const SignedSums& sums_;
+    WaveMask negative_;
+};
+class OfMagnitude {
+  public:
+    explicit OfMagnitude(const SignedSums& sums) : sums_(sums) {}
+    HWY_INLINE FloatVec operator()(FloatVec weight, size_t i) const {
+        const FloatTag d;
+        return hn::Div(hn::Abs(weight), hn::Add(hn::Load(d, sums_.positive.lane + i), hn::Load(d, sums_.negative.lane + i)));
+    }
+
+  private:
+    const SignedSums& sums_;
+};
+
+/// Of the taps that weigh anything the last one before which the probabilities sum to no more than the number; tells take(lanes, tap, i) of
+/// the lanes whose choice moves on to a tap.
+template <class Probabilities, class Take>
+HWY_INLINE void walk_axis(const AxisTaps& taps, const Probabilities& probabilities, const WaveFloat& number, const Take& take) {
+    const FloatTag d;
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        const auto random = hn::Load(d, number.lane + i);
+        auto before = hn::Zero(d);
+        for (int k = 0; k < taps.count; ++k) {
+            const auto probability = probabilities(hn::Load(d, taps.weight[k].lane + i), i);
+            take(hn::And(probability > hn::Zero(d), random >= before), k, i);
+            before = hn::Add(before, probability);
+        }
+    }
+}
+
+/// Draws a tap. Returns the lanes whose texel is beyond an edge.
+template <class Probabilities>
+HWY_INLINE WaveMask draw_of_axis(const AxisTaps& taps, const Probabilities& probabilities, const WaveFloat& number, WaveInt& drawn) {
+    const FloatTag d;
+    const IntTag di;
+    WaveMask border = 0;
+    drawn = taps.texel[0];
+    walk_axis(taps, probabilities, number, [&](hn::Mask<FloatTag> takes, int k, size_t i) HWY_ATTR {
+        int32_t* const texel = drawn.lane + i;
+        hn::Store(hn::IfThenElse(hn::RebindMask(di, takes), hn::Load(di, taps.texel[k].lane + i), hn::Load(di, texel)), di, texel);
+        if (!taps.leaves) return;
+        const WaveMask lanes = wave_mask(d, takes, i);
+        border = (border & ~lanes) | (taps.outside[k] & lanes);
+    });
+    return border;
+}
+
+/// Lanes whose drawn tap, by magnitude, weighs less than nothing.
+HWY_INLINE WaveMask negative_lanes(const AxisTaps& taps, const SignedSums& sums, const WaveFloat& number) {
+    const FloatTag d;
+    WaveMask negative = 0;
+    walk_axis(taps, OfMagnitude(sums), number, [&](hn::Mask<FloatTag> takes, int k, size_t i) HWY_ATTR {
+        const WaveMask lanes = wave_mask(d, takes, i);
+        const WaveMask below = wave_mask(d, hn::Load(d, taps.weight[k].lane + i) < hn::Zero(d), i);
+        negative = (negative & ~lanes) | (below & lanes);
+    });
+    return negative;
+}
+
+/// The nearest texel after the coordinate has moved by the kernel's offset. Returns the lanes whose texel is beyond an edge.
+template <EdgeRule rule>
+HWY_NOINLINE WaveMask jitter_axis_as(const Kernel& kernel, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
+                                     const WaveInt& level, Precision precision, const WaveFloat& number, WaveInt& drawn) {
+    const FloatTag d;
+    const IntTag di;
+    WaveMask border = 0;
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        const auto extent = look_up_level(di, extents, hn::Load(di, level.lane + i));
+        hn::Vec<FloatTag> integer, remainder;
+        locate<rule>(coordinate, {precision, nullptr}, hn::ConvertTo(d, extent), i, integer, remainder);
+        const auto moved = hn::Floor(hn::Add(remainder, jitter_offset(kernel, hn::Load(d, number.lane + i))));
+        const auto index = hn::ConvertTo(di, hn::Add(integer, moved));
+        const auto period = rule == EdgeRule::MirroredRepeat ? hn::Add(extent, extent) : extent;
+        if constexpr (repeats(rule)) {
+            hn::Store(fold_period<rule>(modulo_period(index, period), period), di, drawn.lane + i);
+        } else {
+            hn::Store(limit_index<rule>(index, extent), di, drawn.lane + i);
+        }
+        if constexpr (can_leave(rule)) border |= wave_mask(di, beyond_edges(index, extent), i);
+    }
+    return border;
+}
+
+HWY_INLINE WaveMask jitter_axis(const Kernel& kernel, Wrap wrap, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
+                                const WaveInt& level, Precision precision, const WaveFloat& number, WaveInt& drawn) {
+    return with_rule(edge_rule(wrap), [&](auto constant) HWY_ATTR {
+        return jitter_axis_as<decltype(constant)::value>(kernel, coordinate, extents, level, precision, number, drawn);
+    });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace rawtexel::texunit
+HWY_AFTER_NAMESPACE();
+
+#endif  // RAWTEXEL_TEXUNIT_DRAW_AXIS_INL_H_
