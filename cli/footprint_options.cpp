@@ -9,6 +9,7 @@ namespace {
 
 constexpr float kTentVariance = 1.0f / 6;  ///< pixels^2, of a tent two pixels wide
 constexpr NumberRange kVariance{1e-3f, 4.0f};
+constexpr NumberRange kHybridBias{0.0f, 16.0f};
 constexpr NumberRange kBias{-16.0f, 16.0f};  ///< levels, as far as Vulkan implementations go
 
 /// The ellipse takes no probes.
@@ -57,6 +58,17 @@ void declare_lod_options(CommandLine& line, shading::FootprintOptions& footprint
                 });
     line.option("--lod-bias", "B", "added to every level of detail, " + print(kBias) + " (default 0)",
                 [&](const std::string& text) { footprint.lod_bias = parse_number("--lod-bias", text, kBias); });
+    line.option(
+        "--hybrid-bias", "B",
+        "reads levels finer by B, " + print(kHybridBias) +
+            ", and leaves what they have not filtered to the jitter: of drawn ellipses their own, else the pixel's samples (default "
+            "0; drawn ellipses: level 0)",
+        [&](const std::string& text) { footprint.hybrid_bias = parse_number("--hybrid-bias", text, kHybridBias); });
+}
+
+void check_hybrid_bias(const shading::FootprintOptions& footprint, const shading::FilteringOptions& filtering) {
+    if (footprint.hybrid_bias && footprint.ellipse > 0 && !filtering.draws())
+        throw UsageError("--hybrid-bias: --ewa with --estimator all weighs every texel of level 0; an estimator that draws takes a bias");
 }
 
 void declare_footprint_options(CommandLine& line, shading::FootprintOptions& footprint) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cli/command_line.h"
+#include "shading/filtering_options.h"
 #include "shading/footprint_options.h"
 
 #include <string>
@@ -13,6 +14,9 @@ namespace rawtexel::cli {
 void declare_lod_options(CommandLine& line, shading::FootprintOptions& footprint);
 /// The same, with --derivatives and --footprint: where a frame's derivatives come from.
 void declare_footprint_options(CommandLine& line, shading::FootprintOptions& footprint);
+
+/// Throws UsageError where a bias has nothing to act on.
+void check_hybrid_bias(const shading::FootprintOptions& footprint, const shading::FilteringOptions& filtering);
 
 /// N or N:S2, 1 <= N <= 64, 0.001 <= S2 <= 4.
 void parse_anisotropy(std::string_view text, shading::FootprintOptions& footprint);

@@ -35,6 +35,7 @@ shading::RenderOptions frame_options(const RenderRequest& request, const shading
     options.filter = request.lookup.filter;
     options.mip = request.lookup.mip;
     options.footprint = request.lookup.footprint;
+    options.filtering = request.lookup.filtering;
     options.precision = request.lookup.precision;
     options.background = request.tone.white_backdrop ? glm::vec3(0.0f) : request.light.background;
     options.coverage = request.tone.white_backdrop;
@@ -43,6 +44,11 @@ shading::RenderOptions frame_options(const RenderRequest& request, const shading
     options.fetches.cache = request.fetches.cache;
     options.tile_size = request.machine.tile_size;
     return options;
+}
+
+void check_lookups(const shading::Scene& scene, const shading::RenderOptions& options) {
+    const std::string refusal = shading::refusal(scene, options);
+    if (!refusal.empty()) throw UsageError(refusal);
 }
 
 }  // namespace rawtexel::cli

@@ -18,4 +18,7 @@ scenes::LoadOptions load_options(const RenderRequest& request, const Invocation&
 /// Everything of a frame that the shared options say.
 shading::RenderOptions frame_options(const RenderRequest& request, const shading::Camera& camera);
 
+/// Throws UsageError where the scene's maps cannot be looked up as asked.
+void check_lookups(const shading::Scene& scene, const shading::RenderOptions& options);
+
 }  // namespace rawtexel::cli

@@ -86,6 +86,12 @@ std::vector<std::pair<std::string, std::string>> print_choices(const LookupOptio
             {"lod-bias", print_number(footprint.lod_bias)},
             {"derivatives", std::string(to_string(footprint.derivatives))},
             {"footprint", std::string(to_string(footprint.area))},
+            {"hybrid-bias", footprint.hybrid_bias ? print_number(*footprint.hybrid_bias) : "none"},
+            {"estimator", std::string(to_string(lookup.filtering.estimator))},
+            {"taps", std::to_string(lookup.filtering.taps)},
+            {"order", std::string(to_string(lookup.filtering.effective_order()))},
+            {"random", std::string(to_string(lookup.filtering.sharing))},
+            {"signed-numbers", lookup.filtering.common_numbers ? "common" : "independent"},
             {"precision", std::string(to_string(lookup.precision))},
             {"mip-storage", print(lookup.mip_storage)},
             {"bc-rounding", std::string(to_string(lookup.files.bc_rounding))}};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cli/command_line.h"
+#include "shading/filtering_options.h"
 #include "shading/footprint_options.h"
 #include "texunit/containers.h"
 #include "texunit/sampler.h"
@@ -19,6 +20,7 @@ struct LookupOptions {
     std::optional<texunit::Kernel> filter;  ///< unset: what the scene's samplers say
     std::optional<texunit::MipMode> mip;
     shading::FootprintOptions footprint;
+    shading::FilteringOptions filtering;
     texunit::Precision precision = texunit::Precision::Exact;
     texunit::MipStorage mip_storage = texunit::MipStorage::Source;
     texunit::ContainerOptions files;

@@ -1,5 +1,6 @@
 #include "cli/render_options.h"
 
+#include "cli/filtering_options.h"
 #include "cli/footprint_options.h"
 #include "cli/limits.h"
 #include "cli/option_values.h"
@@ -239,6 +240,8 @@ void declare_render_options(CommandLine& line, RenderRequest& request) {
     declare_lookup_options(line, request.lookup);
     line.group("Footprints");
     declare_footprint_options(line, request.lookup.footprint);
+    line.group("Filtering before or after shading");
+    declare_filtering_options(line, request.lookup.filtering);
     declare_sample_options(line, request.samples);
     declare_tone_options(line, request.tone);
     declare_fetch_options(line, request.fetches);
@@ -248,6 +251,8 @@ void declare_render_options(CommandLine& line, RenderRequest& request) {
 void settle(RenderRequest& request) {
     check_crop(request.crop, request.image_size());
     check_view(request.view);
+    check_filtering(request.lookup.filtering, request.lookup.filter);
+    check_hybrid_bias(request.lookup.footprint, request.lookup.filtering);
     if (request.light.peer_shading) preset_peer_shading(request);
 }
 

@@ -113,8 +113,13 @@ std::vector<LookupPlace> settle_places(const SampleRequest& request, std::string
 texunit::SamplerState make_sampler(const SampleRequest& request) {
     texunit::SamplerState sampler;
     const LookupOptions& lookup = request.lookup;
-    shading::override_sampler({.filter = lookup.filter, .mip = lookup.mip, .footprint = lookup.footprint, .precision = lookup.precision},
-                              sampler);
+    shading::LookupOverrides overrides;
+    overrides.filter = lookup.filter;
+    overrides.mip = lookup.mip;
+    overrides.footprint = lookup.footprint;
+    overrides.filtering = lookup.filtering;
+    overrides.precision = lookup.precision;
+    shading::override_sampler(overrides, sampler);
     const std::array<Wrap, 3> wraps = request.wraps.value_or(std::array{sampler.wrap_s, sampler.wrap_t, sampler.wrap_r});
     sampler.wrap_s = wraps[0], sampler.wrap_t = wraps[1], sampler.wrap_r = wraps[2];
     sampler.border = request.border.value_or(sampler.border);

@@ -7,9 +7,11 @@
 #endif
 
 #include "raster/visibility.h"
+#include "shading/alpha-inl.h"
 #include "shading/coordinates-inl.h"
 #include "shading/derivatives-inl.h"
 #include "shading/lookup-inl.h"
+#include "shading/material_taps-inl.h"
 #include "shading/pixel_rect.h"
 #include "texunit/random-inl.h"
 
@@ -22,7 +24,8 @@ namespace HWY_NAMESPACE {
 namespace random = texunit::HWY_NAMESPACE;
 
 /// MASK: alpha >= cutoff. BLEND: a random number of the (pixel, sample, triangle) < alpha, so that the mean over samples is the mix.
-/// alpha = texture * factor * vertex colour (glTF 2.0 3.9.4), looked up as the visible fragment's colour will be.
+/// alpha is looked up as the visible fragment's colour will be. Where raw texels are shaded it is they that cover or do not, and a random
+/// number is held against the share of those that do: with one draw, the texel that will be shaded decides.
 class AlphaCoverage {
   public:
     AlphaCoverage(const raster::Frame& frame, std::span<const DrawState> draws, const PixelRect& visible, uint32_t seed,
@@ -36,36 +39,80 @@ class AlphaCoverage {
         const DrawState& draw = draws_[candidate.triangle->draw];
         find_alpha(draw, candidate, mask);
         const Material& material = *draw.material->material;
-        return mask & (material.alpha_mode == AlphaMode::Mask ? at_least(material.alpha_cutoff) : drawn(candidate));
+        const bool tests = material.alpha_mode == AlphaMode::Mask && !draw.material->plans.shaded.holds(kBaseColor);
+        return mask & (tests ? at_least(material.alpha_cutoff) : drawn(candidate));
     }
 
     /// Of the wave asked about last, at the lanes that are inside.
+    /// Of raw texels the share that covers.
     const WaveFloat& alpha() const { return alpha_; }
-    const texunit::WaveCoordinates& coordinates() const { return coordinates_; }
+    /// Of the material's base colour.
+    const texunit::WaveCoordinates& coordinates(const MaterialState& material) const {
+        return coordinates_[material.maps[kBaseColor].coordinates];
+    }
 
   private:
     /// Fills alpha_.
     void find_alpha(const DrawState& draw, const raster::CandidateWave& candidate, WaveMask mask) {
-        const FloatLanes d;
         const MaterialState& material = *draw.material;
         const Mesh& mesh = *draw.mesh;
         const MapState& map = material.maps[kBaseColor];
         const OneTriangle corners{&mesh.indices[size_t(candidate.triangle->primitive) * 3]};
-        if (map.texture || !mesh.colors.empty()) {
+        const bool colored = !mesh.colors.empty();
+        if (map.texture || colored) {
             alignas(64) uint32_t setup_index[texunit::kWaveLanes];
             for (uint32_t& index : setup_index) index = candidate.setup_index;
             find_barycentrics(derivatives_, {frame_, setup_index, candidate.offset, candidate.x, candidate.y}, mask, weights_);
             clamp_weights(weights_);
         }
+        if (colored) find_vertex_alpha(mesh, corners);
+        vertex_ = colored ? &vertex_alpha_ : nullptr;
         if (map.texture) {
-            interpolate_coordinates(material.coordinates[size_t(map.coordinates)], mesh, corners, weights_, coordinates_);
-            look_up(map, coordinates_, mask, color_, nullptr);
+            texunit::WaveCoordinates& at = coordinates_[map.coordinates];
+            interpolate_coordinates(material.coordinates[size_t(map.coordinates)], mesh, corners, weights_, at);
+            if (draws(material)) return find_drawn_alpha(material, candidate, mask);
+            look_up(map, at, mask, maps_[kBaseColor], nullptr);
         }
+        HWY_NAMESPACE::find_alpha(*material.material, map.texture ? &maps_[kBaseColor].channel[3] : nullptr, vertex_, alpha_);
+    }
+
+    static bool draws(const MaterialState& material) {
+        return material.plans.shaded.holds(kBaseColor) || material.plans.averaged.holds(kBaseColor);
+    }
+
+    void find_vertex_alpha(const Mesh& mesh, const OneTriangle& corners) {
+        const FloatLanes d;
+        for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d))
+            hn::Store(interpolate<4>(corners, load_weights(weights_, i), &mesh.colors[0].a, i), d, vertex_alpha_.lane + i);
+    }
+
+    /// alpha of draws that are averaged, or the share of the raw texels that covers.
+    HWY_NOINLINE void find_drawn_alpha(const MaterialState& material, const raster::CandidateWave& candidate, WaveMask mask) {
+        const TapPlans& plans = material.plans;
+        alignas(64) uint32_t surface[texunit::kWaveLanes];
+        std::fill_n(surface, texunit::kWaveLanes, 1 + candidate.triangle->triangle_id);
+        taps_.begin({&material, coordinates_, mask, candidate.x, candidate.y, sample_, seed_, surface});
+        texunit::WaveFloat& texel = maps_[kBaseColor].channel[3];
+        if (plans.averaged.holds(kBaseColor)) {
+            average_taps(taps_, MaterialTaps::only(plans.averaged, kBaseColor), maps_);
+            return HWY_NAMESPACE::find_alpha(*material.material, &texel, vertex_, alpha_);
+        }
+        WaveFloat covered{}, total{};
+        const FloatLanes d;
+        for_each_shaded_tap(
+            taps_, MaterialTaps::only(plans.shaded, kBaseColor), maps_, [&](const WaveFloat& weight, WaveMask lanes) HWY_ATTR {
+                HWY_NAMESPACE::find_alpha(*material.material, &texel, vertex_, alpha_);
+                for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) {
+                    const auto w = hn::IfThenElseZero(wave_mask_lanes(lanes, i), hn::Max(hn::Load(d, weight.lane + i), hn::Zero(d)));
+                    const auto share = covered_share(*material.material, hn::Load(d, alpha_.lane + i));
+                    hn::Store(hn::Add(hn::Load(d, covered.lane + i), hn::Mul(w, share)), d, covered.lane + i);
+                    hn::Store(hn::Add(hn::Load(d, total.lane + i), w), d, total.lane + i);
+                }
+            });
         for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) {
-            auto alpha = hn::Set(d, material.material->base_color.a);
-            if (map.texture) alpha = hn::Mul(alpha, hn::Load(d, color_.channel[3].lane + i));
-            if (!mesh.colors.empty()) alpha = hn::Mul(alpha, interpolate<4>(corners, load_weights(weights_, i), &mesh.colors[0].a, i));
-            hn::Store(alpha, d, alpha_.lane + i);
+            const auto sum = hn::Load(d, total.lane + i);
+            const auto share = hn::Div(hn::Load(d, covered.lane + i), sum);
+            hn::Store(hn::IfThenElseZero(sum > hn::Zero(d), share), d, alpha_.lane + i);
         }
     }
 
@@ -99,9 +146,11 @@ class AlphaCoverage {
     DerivativeRule derivatives_;
     uint32_t sample_ = 0;
     raster::BarycentricWave weights_{};
-    texunit::WaveCoordinates coordinates_{};
-    texunit::WaveColor color_{};
-    WaveFloat alpha_{};
+    texunit::WaveCoordinates coordinates_[kMapSlots]{};
+    texunit::WaveColor maps_[kMapSlots]{};
+    MaterialTaps taps_;
+    WaveFloat alpha_{}, vertex_alpha_{};
+    const WaveFloat* vertex_ = nullptr;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -10,6 +10,7 @@
 #include "shading/derivatives-inl.h"
 #include "shading/fetch_options.h"
 #include "shading/lookup_listener.h"
+#include "shading/material_taps-inl.h"
 #include "shading/tile.h"
 #include "shading/wave_draws-inl.h"
 
@@ -181,9 +182,50 @@ class DemandedLookups {
         find_coordinates(material);
         for (int slot = 0; slot < kMapSlots; ++slot) {
             const MapState& map = material.maps[size_t(slot)];
-            const WaveMask lanes = slot == kBaseColor ? asking_.base_color : asking_.others;
-            if (map.texture && lanes != 0) listener_.lookup({MapSlot(slot), &map, lanes, &coordinates_[map.coordinates]});
+            if (map.texture && lanes_of(slot) != 0 && !draws(material, slot)) listener_.lookup(lookup_of(map, slot));
         }
+        if (material.plans.draws()) tell_draws(material);
+    }
+
+    WaveMask lanes_of(int slot) const { return slot == kBaseColor ? asking_.base_color : asking_.others; }
+    ListenedLookup lookup_of(const MapState& map, int slot) const {
+        return {MapSlot(slot), &map, lanes_of(slot), &coordinates_[map.coordinates]};
+    }
+
+    /// Where all taps are shaded every map asks for what it would ask for to filter them.
+    static bool draws(const MaterialState& material, int slot) {
+        return material.plans.averaged.holds(slot) || (material.plans.shaded.holds(slot) && !material.plans.enumerates);
+    }
+
+    HWY_NOINLINE void tell_draws(const MaterialState& material) {
+        alignas(64) uint32_t surface[texunit::kWaveLanes];
+        const bool layered = material.material->alpha_mode != AlphaMode::Opaque;
+        for (WaveMask lanes = layered ? asking_.base_color : 0; lanes != 0; lanes &= lanes - 1) {
+            const int lane = std::countr_zero(lanes);
+            surface[lane] = 1 + frame_.triangle(asking_.setup_index[lane]).triangle_id;
+        }
+        taps_.begin(
+            {&material, coordinates_, asking_.base_color, wave_.x, wave_.y, wave_.sample, inputs_.seed, layered ? surface : nullptr});
+        for (const TapPlan* plan : {&material.plans.averaged, &material.plans.shaded}) {
+            if (plan->empty() || (plan == &material.plans.shaded && material.plans.enumerates)) continue;
+            if (material.sharing == NumberSharing::PerMap) {
+                for (int n = 0; n < material.plans.taps; ++n)
+                    taps_.for_each_map(*plan, n, [&](MapSlot slot, const texunit::SharedTap& tap, int) { tell_draw(slot, tap, 0, n); });
+                continue;
+            }
+            taps_.for_each(*plan, false, [&](const texunit::SharedTap& tap, int n) {
+                for (int slot = 0; slot < kMapSlots; ++slot)
+                    if (plan->holds(slot)) tell_draw(slot, tap, plan->lookup_of[size_t(slot)], n);
+            });
+        }
+    }
+
+    /// `number`: of the draw, of which the texel of negative weights comes second and to some lanes only.
+    void tell_draw(int slot, const texunit::SharedTap& tap, int number_in_tap, int number) {
+        ListenedLookup lookup = lookup_of(taps_.material().maps[size_t(slot)], slot);
+        const bool first = number == 0 && tap.weight[std::countr_zero(tap.lanes)] > 0;
+        lookup.lanes &= tap.lanes;
+        if (lookup.lanes != 0) listener_.drawn({lookup, &tap.draw[number_in_tap], first});
     }
 
     void find_coordinates(const MaterialState& material) {
@@ -216,6 +258,7 @@ class DemandedLookups {
     alignas(64) raster::SampleOffset offset_[texunit::kWaveLanes];
     raster::BarycentricWave weights_{};
     texunit::WaveCoordinates coordinates_[kMapSlots]{};
+    MaterialTaps taps_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -38,8 +38,37 @@ int coordinates_of(MaterialState& state, const TextureMap& map) {
     return state.coordinate_count++;
 }
 
+/// Whether two maps draw the same texels with the same numbers.
+bool draws_alike(const MapState& a, const MapState& b) {
+    const texunit::Shape &of_a = a.texture->shape(), &of_b = b.texture->shape();
+    const bool same_shape = of_a.width == of_b.width && of_a.height == of_b.height && of_a.levels == of_b.levels;
+    return a.coordinates == b.coordinates && a.sampler == b.sampler && same_shape;
+}
+
+void add_to_plan(const MaterialState& state, int slot, TapPlan& plan) {
+    const MapState& map = state.maps[size_t(slot)];
+    for (int k = 0; k < plan.lookups && !plan.holds(slot); ++k)
+        if (draws_alike(state.maps[plan.first[size_t(k)]], map)) plan.lookup_of[size_t(slot)] = int8_t(k);
+    if (plan.holds(slot)) return;
+    plan.lookup_of[size_t(slot)] = int8_t(plan.lookups);
+    plan.first[size_t(plan.lookups++)] = MapSlot(slot);
+}
+
+void make_plans(const FilteringOptions& filtering, MaterialState& state) {
+    state.plans.taps = filtering.taps;
+    state.plans.common_numbers = filtering.common_numbers;
+    state.sharing = filtering.sharing;
+    const bool after = filtering.effective_order() == FilterOrder::After;
+    state.plans.enumerates = after && !filtering.draws();
+    if (!after && !filtering.draws()) return;
+    for (int slot = 0; slot < kMapSlots; ++slot)
+        if (state.maps[size_t(slot)].texture) add_to_plan(state, slot, after ? state.plans.shaded : state.plans.averaged);
+}
+
 MaterialState make_material_state(const Scene& scene, uint32_t index, const LookupOverrides& overrides) {
-    MaterialState state{.material = &scene.materials[index], .index = index, .maps = {}, .coordinates = {}};
+    MaterialState state;
+    state.material = &scene.materials[index];
+    state.index = index;
     for (int slot = 0; slot < kMapSlots; ++slot) {
         const TextureMap& map = state.material->maps[size_t(slot)];
         if (map.texture < 0 || !map_matters(*state.material, slot, overrides)) continue;
@@ -50,6 +79,7 @@ MaterialState make_material_state(const Scene& scene, uint32_t index, const Look
         override_sampler(overrides, lookup.sampler);
         lookup.coordinates = coordinates_of(state, map);
     }
+    make_plans(overrides.filtering, state);
     return state;
 }
 
@@ -81,6 +111,28 @@ void override_sampler(const LookupOverrides& overrides, texunit::SamplerState& s
     if (overrides.mip) sampler.mip = *overrides.mip;
     override_footprint(overrides.footprint, sampler);
     sampler.precision = overrides.precision;
+    sampler.estimator = overrides.filtering.estimator;
+}
+
+std::string refusal(const Scene& scene, const LookupOverrides& overrides) {
+    const FilteringOptions& filtering = overrides.filtering;
+    const DrawStates states = make_draw_states(scene, overrides);
+    for (const MaterialState& state : states.materials) {
+        const std::string material = "material '" + state.material->name + "': ";
+        for (const MapState& map : state.maps) {
+            if (!map.texture) continue;
+            for (const texunit::Kernel& kernel : {map.sampler.magnify, map.sampler.minify}) {
+                const std::string_view reason = texunit::refusal(filtering.estimator, kernel);
+                if (!reason.empty())
+                    return material + std::string(to_string(filtering.estimator)) + " cannot draw " + to_string(kernel) + ", " +
+                           std::string(reason);
+            }
+        }
+        if (state.plans.enumerates && state.plans.shaded.lookups > 1 && overrides.footprint.ellipse > 0)
+            return material +
+                   "its maps differ in extent or coordinates, and ellipses cannot be listed together; --reference converges to it";
+    }
+    return {};
 }
 
 DrawStates make_draw_states(const Scene& scene, const LookupOverrides& overrides) {

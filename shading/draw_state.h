@@ -2,14 +2,17 @@
 #pragma once
 
 #include "raster/frame.h"
+#include "shading/filtering_options.h"
 #include "shading/footprint_options.h"
 #include "shading/scene.h"
+#include "shading/tap_plan.h"
 
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace rawtexel::shading {
@@ -36,6 +39,8 @@ struct MaterialState {
     std::array<MapState, kMapSlots> maps;
     std::array<CoordinateState, kMapSlots> coordinates;
     int coordinate_count = 0;
+    TapPlans plans;
+    NumberSharing sharing = NumberSharing::Shared;
 };
 
 struct DrawState {
@@ -53,12 +58,16 @@ struct LookupOverrides {
     std::optional<texunit::Kernel> filter;
     std::optional<texunit::MipMode> mip;
     FootprintOptions footprint;
+    FilteringOptions filtering;
     texunit::Precision precision = texunit::Precision::Exact;
     bool occlusion = true;  ///< false: nothing reads occlusion maps
 };
 
 /// Makes `sampler` look up as the overrides say.
 void override_sampler(const LookupOverrides& overrides, texunit::SamplerState& sampler);
+
+/// Why maps of the scene cannot be looked up so, as a line for people that names the material; empty where they can.
+std::string refusal(const Scene& scene, const LookupOverrides& overrides);
 
 /// One draw per instance, in scene order.
 struct DrawStates {

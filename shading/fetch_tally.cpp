@@ -37,12 +37,17 @@ void FetchTally::begin_wave(const ListenedWave& wave) {
     if (sums_pixels()) wave_texels_ = {};
 }
 
-void FetchTally::lookup(const ListenedLookup& lookup) {
-    const uint32_t place = set_.place[lookup.map->texture_index];
+texunit::FetchCounter FetchTally::counter_of(size_t place) {
     texunit::FetchCounter counter;
     counter.counts = &counts_[place];
     counter.touched = touched_.bits(place);
     counter.pixel = sums_pixels() ? &wave_texels_ : nullptr;
+    return counter;
+}
+
+void FetchTally::lookup(const ListenedLookup& lookup) {
+    const uint32_t place = set_.place[lookup.map->texture_index];
+    texunit::FetchCounter counter = counter_of(place);
     texunit::WaveFloat lod;
     count_wave(*lookup.map->texture, lookup.map->sampler, *lookup.at, lookup.lanes, counter, options_.pixel_layers ? &lod : nullptr);
     if (records()) {
@@ -50,6 +55,24 @@ void FetchTally::lookup(const ListenedLookup& lookup) {
         record_wave(*lookup.map->texture, lookup.map->sampler, *lookup.at, lookup.lanes, recorder_);
     }
     if (options_.pixel_layers) measure(lookup, lod);
+}
+
+void FetchTally::drawn(const ListenedDraw& draw) {
+    const ListenedLookup& lookup = draw.lookup;
+    const uint32_t place = set_.place[lookup.map->texture_index];
+    const texunit::Texture& texture = *lookup.map->texture;
+    texunit::FetchCounter counter = counter_of(place);
+    count_drawn_wave(texture, *draw.draw, lookup.lanes, draw.first, counter);
+    if (records()) {
+        recorder_.set_texture(place);
+        record_drawn_wave(texture, *draw.draw, lookup.lanes, draw.first, recorder_);
+    }
+    if (!options_.pixel_layers || !draw.first) return;
+    texunit::WaveFloat lod;
+    texunit::FetchCounts unused;
+    texunit::FetchCounter measured{.counts = &unused};
+    count_wave(*lookup.map->texture, lookup.map->sampler, *lookup.at, lookup.lanes, measured, &lod);
+    measure(lookup, lod);
 }
 
 void FetchTally::measure(const ListenedLookup& lookup, const texunit::WaveFloat& lod) {

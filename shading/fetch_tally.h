@@ -27,6 +27,7 @@ class FetchTally final : public LookupListener {
     void begin_wave(const ListenedWave& wave) override;
     void fragments(const ListenedFragments&) override {}
     void lookup(const ListenedLookup& lookup) override;
+    void drawn(const ListenedDraw& draw) override;
     void end_wave() override;
     void end_sample() override;
     void end_tile() override;
@@ -43,6 +44,7 @@ class FetchTally final : public LookupListener {
     };
     bool records() const { return options_.pixel_lines || options_.needs_order(); }
     bool sums_pixels() const { return !pixels_.empty(); }
+    texunit::FetchCounter counter_of(size_t place);
     void measure(const ListenedLookup& lookup, const texunit::WaveFloat& lod);
     void sum_pixels_of_wave();
     size_t pixel(int lane) const;

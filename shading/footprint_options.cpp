@@ -17,6 +17,12 @@ void override_footprint(const FootprintOptions& options, texunit::SamplerState& 
     sampler.ellipse = options.ellipse;
     sampler.lod_rule = options.lod_rule;
     sampler.lod_bias += options.lod_bias;
+    if (!options.hybrid_bias) return;
+    if (options.ellipse > 0) {
+        sampler.hybrid_bias = *options.hybrid_bias;
+    } else {
+        sampler.lod_bias -= *options.hybrid_bias;
+    }
 }
 
 }  // namespace rawtexel::shading

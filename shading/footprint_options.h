@@ -20,6 +20,9 @@ struct FootprintOptions {
     float ellipse = 0.0f;                      ///< SamplerState::ellipse
     texunit::LodRule lod_rule = texunit::LodRule::D3d;
     float lod_bias = 0.0f;  ///< levels
+    /// How much finer than the nominal level lookups read, levels >= 0. An ellipse gives the variance that its level has not to its draws;
+    /// of other lookups the samples of the pixel filter cover it. nullopt: nominal levels, and level 0 for ellipses.
+    std::optional<float> hybrid_bias = std::nullopt;
     Derivatives derivatives = Derivatives::Analytic;
     FootprintArea area = FootprintArea::Pixel;
 

@@ -27,11 +27,11 @@ struct MapColors {
     texunit::WaveColor slot[kMapSlots];
 };
 
-/// `lod`: of the base colour's lookup, where asked for.
+/// Those that no plan draws. `lod`: of the base colour's lookup, where asked for.
 HWY_INLINE void look_up_maps(const MaterialState& material, const FragmentWave& fragment, WaveMask mask, MapColors& out, WaveFloat* lod) {
     for (int slot = 0; slot < kMapSlots; ++slot) {
         const MapState& map = material.maps[size_t(slot)];
-        if (!map.texture) continue;
+        if (!map.texture || material.plans.averaged.holds(slot) || material.plans.shaded.holds(slot)) continue;
         look_up(map, fragment.coordinates[map.coordinates], mask, out.slot[slot], slot == kBaseColor ? lod : nullptr);
     }
 }

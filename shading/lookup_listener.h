@@ -3,6 +3,7 @@
 
 #include "raster/frame.h"
 #include "shading/draw_state.h"
+#include "texunit/draw.h"
 #include "texunit/sample.h"
 
 #include <cstddef>
@@ -34,8 +35,15 @@ struct ListenedLookup {
     const texunit::WaveCoordinates* at = nullptr;  ///< other lanes hold anything
 };
 
+/// A texel drawn for one map by the lanes of a group of fragments.
+struct ListenedDraw {
+    ListenedLookup lookup;  ///< its lanes are those that read the texel
+    const texunit::TexelDraw* draw = nullptr;
+    bool first = false;  ///< of the lookup's draws, read by all of its lanes
+};
+
 /// Of a tile it hears sample by sample, of a sample wave by wave in Morton order, of a wave its fragments in the order in which they are
-/// drawn, of fragments their maps in the order of their slots.
+/// drawn, of fragments their maps in the order of their slots: first those that weigh every tap, then draw by draw those that draw.
 class LookupListener {
   public:
     virtual ~LookupListener() = default;
@@ -43,6 +51,7 @@ class LookupListener {
     virtual void begin_wave(const ListenedWave& wave) = 0;
     virtual void fragments(const ListenedFragments& fragments) = 0;
     virtual void lookup(const ListenedLookup& lookup) = 0;
+    virtual void drawn(const ListenedDraw& draw) = 0;
     virtual void end_wave() = 0;
     virtual void end_sample() = 0;
     virtual void end_tile() = 0;

@@ -89,6 +89,15 @@ TileTotals render_tiles(const TileInputs& inputs, FetchAccount* account, const R
     return totals;
 }
 
+LookupOverrides lookup_overrides(const RenderOptions& options, bool occlusion) {
+    return {.filter = options.filter,
+            .mip = options.mip,
+            .footprint = options.footprint,
+            .filtering = options.filtering,
+            .precision = options.precision,
+            .occlusion = occlusion};
+}
+
 /// With what the layers of counts need.
 FetchOptions fetch_options(const RenderOptions& options) {
     FetchOptions fetches = options.fetches;
@@ -111,6 +120,8 @@ void fill_count_layers(const RenderOptions& options, RenderResult& result) {
 
 }  // namespace
 
+std::string refusal(const Scene& scene, const RenderOptions& options) { return refusal(scene, lookup_overrides(options, true)); }
+
 RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOptions& options, Executor& executor,
                     const Progress& progress) {
     assert(options.width > 0 && options.height > 0 && options.spp > 0);
@@ -120,11 +131,7 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
     // The same image whatever the tiles: the order of fetches is that of its own.
     const int tile_size = fetches.needs_order() ? kCanonicalTile : options.tile_size;
     const bool indirect_light = lighting.environment != nullptr || lighting.ambient != 0.0f;
-    const DrawStates states = make_draw_states(scene, {.filter = options.filter,
-                                                       .mip = options.mip,
-                                                       .footprint = options.footprint,
-                                                       .precision = options.precision,
-                                                       .occlusion = indirect_light});
+    const DrawStates states = make_draw_states(scene, lookup_overrides(options, indirect_light));
     const raster::Frame frame = make_frame(states, options, visible, tile_size, executor);
 
     RenderResult result;

@@ -5,6 +5,7 @@
 #include "shading/aov.h"
 #include "shading/executor.h"
 #include "shading/fetch_options.h"
+#include "shading/filtering_options.h"
 #include "shading/footprint_options.h"
 #include "shading/fragment_listener.h"
 #include "shading/frame_fetches.h"
@@ -42,6 +43,7 @@ struct RenderOptions {
     std::optional<texunit::Kernel> filter;
     std::optional<texunit::MipMode> mip;
     FootprintOptions footprint;
+    FilteringOptions filtering;
     texunit::Precision precision = texunit::Precision::Exact;  ///< of every lookup
     std::optional<glm::vec3> background;                       ///< nullopt: the environment, black where there is none
     std::vector<Aov> aovs;
@@ -74,6 +76,9 @@ using Progress = std::function<void(double)>;
 /// Lighting as the options ask, shadow map drawn. `shadows`: the first directional light casts.
 Lighting resolve_lighting(const Scene& scene, std::vector<Light> lights, float ambient, std::shared_ptr<const Environment> environment,
                           bool shadows, Executor& executor);
+
+/// Why the scene's maps cannot be looked up as the options say, as a line for people that names the material; empty where they can.
+std::string refusal(const Scene& scene, const RenderOptions& options);
 
 /// The same inputs give the same bits for any thread count and tile size; a crop has the bits of that part of the whole.
 /// Throws texunit::TextureError when a texture proves damaged.

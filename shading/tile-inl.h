@@ -14,6 +14,7 @@
 #include "shading/light-inl.h"
 #include "shading/lookup-inl.h"
 #include "shading/material-inl.h"
+#include "shading/tap_sum-inl.h"
 #include "shading/tile.h"
 #include "shading/wave_draws-inl.h"
 
@@ -154,7 +155,7 @@ class TileRenderer {
                                             .covered = covered & lanes,
                                             .depth = candidate.depth,
                                             .alpha = &coverage_.alpha(),
-                                            .base_color = &coverage_.coordinates()});
+                                            .base_color = &coverage_.coordinates(*inputs_.draws[candidate.triangle->draw].material)});
     }
 
     void tell_shaded(const DrawState& draw, WaveMask pass) {
@@ -268,19 +269,62 @@ class TileRenderer {
         WaveFloat lod = {};
         const bool wants_lod = first_sample_ && inputs_.planes.lod >= 0;
         look_up_maps(material, fragment_, pass, maps_, wants_lod ? &lod : nullptr);
-        find_surface(draw, fragment_, maps_, surface_);
-        if (material.material->unlit) {
-            store_vector(surface_.base_color, pass, TilePlanes::kRadiance, wave_.index);
+        if (material.plans.draws()) {
+            shade_taps(draw, pass);
+            if (wants_lod) find_lod(material.maps[kBaseColor], pass, lod);
         } else {
-            turn_to_viewer();
-            shade_lanes(*inputs_.lighting, surface_, pass, radiance_);
-            store_vector(radiance_, pass, TilePlanes::kRadiance, wave_.index);
+            shade_maps(draw, pass);
         }
-        if (watched()) tell_shaded(draw, pass);
+        store_vector(radiance_, pass, TilePlanes::kRadiance, wave_.index);
         if (inputs_.planes.hits >= 0) store_layers(draw, pass);
         if (wants_lod) store_wave(lod, pass, first_sample_plane(inputs_.planes.lod, wave_.index));
         if (first_sample_ && inputs_.planes.material >= 0)
             store_value(float(material.index), pass, first_sample_plane(inputs_.planes.material, wave_.index));
+    }
+
+    /// From the maps' values to radiance_.
+    void shade_maps(const DrawState& draw, WaveMask lanes) {
+        find_surface(draw, fragment_, maps_, surface_);
+        if (draw.material->material->unlit) {
+            radiance_ = surface_.base_color;
+        } else {
+            turn_to_viewer();
+            shade_lanes(*inputs_.lighting, surface_, lanes, radiance_);
+        }
+        if (watched()) tell_shaded(draw, lanes);
+    }
+
+    /// Draws of maps that are averaged before shading; raw texels of the others, shaded and then added up.
+    HWY_NOINLINE void shade_taps(const DrawState& draw, WaveMask pass) {
+        const MaterialState& material = *draw.material;
+        alignas(64) uint32_t surface[texunit::kWaveLanes];
+        const bool layered = material.material->alpha_mode != AlphaMode::Opaque;
+        for (WaveMask lanes = layered ? pass : 0; lanes != 0; lanes &= lanes - 1) {
+            const int lane = std::countr_zero(lanes);
+            surface[lane] = 1 + frame_.triangle(wave_.setup_index[lane]).triangle_id;
+        }
+        taps_.begin({&material, fragment_.coordinates, pass, wave_.x, wave_.y, wave_.sample, inputs_.seed, layered ? surface : nullptr});
+        if (!material.plans.averaged.empty()) average_taps(taps_, material.plans.averaged, maps_.slot);
+        if (material.plans.shaded.empty()) return shade_maps(draw, pass);
+
+        tap_sum_.clear();
+        const bool covers = layered && material.plans.shaded.holds(kBaseColor);
+        const WaveFloat* const vertex = draw.mesh->colors.empty() ? nullptr : &fragment_.color.channel[3];
+        WaveFloat alpha;
+        for_each_shaded_tap(taps_, material.plans.shaded, maps_.slot, [&](const WaveFloat& weight, WaveMask lanes) HWY_ATTR {
+            shade_maps(draw, lanes);
+            if (covers) find_alpha(*material.material, &maps_.slot[kBaseColor].channel[3], vertex, alpha);
+            tap_sum_.add(*material.material, {&radiance_, &surface_, &weight, covers ? &alpha : nullptr, lanes});
+        });
+        tap_sum_.radiance(radiance_);
+        if (inputs_.planes.hits >= 0) tap_sum_.layers(surface_);
+    }
+
+    void find_lod(const MapState& map, WaveMask pass, WaveFloat& lod) {
+        if (!map.texture) return;
+        texunit::FetchCounts unused;
+        texunit::FetchCounter counter{.counts = &unused};
+        count_wave(*map.texture, map.sampler, fragment_.coordinates[map.coordinates], pass, counter, &lod);
     }
 
     void turn_to_viewer() {
@@ -353,6 +397,8 @@ class TileRenderer {
     MapColors maps_{};
     SurfaceWave surface_{};
     WaveVector radiance_{};
+    MaterialTaps taps_;
+    TapSum tap_sum_;
 };
 
 }  // namespace HWY_NAMESPACE

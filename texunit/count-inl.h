@@ -255,6 +255,21 @@ HWY_INLINE void begin_level(const WaveFloat& fraction, bool coarser, Count& coun
     if constexpr (Count::kRecords) count.sink->begin_level(fraction, coarser);
 }
 
+/// One texel of each lane of `mask`, drawn; `draw.slice` null: slice 0.
+HWY_INLINE void hear_texel(const WaveInt& level, const WaveInt& x, const WaveInt& y, WaveMask mask, WaveMask border, FetchCounter& count) {
+    const WaveMask texels = mask & ~border;
+    mark_texels(level, nullptr, x, y, texels, count);
+    WaveInt counted;
+    for (int lane = 0; lane < kWaveLanes; ++lane) counted[lane] = int(texels >> lane & 1);
+    add_texels(counted, level, count);
+}
+HWY_INLINE void hear_texel(const WaveInt& level, const WaveInt& x, const WaveInt& y, WaveMask mask, WaveMask border,
+                           FetchRecorder& recorder) {
+    WaveFloat weight;
+    std::fill_n(weight.lane, kWaveLanes, 1.0f);
+    recorder.sink->tap({mask, border & mask, &level, nullptr, &x, &y, &weight});
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace rawtexel::texunit
 HWY_AFTER_NAMESPACE();

@@ -90,6 +90,17 @@ void draw_and_read(Texture& texture, const SamplerState& sampler, const WaveCoor
     read_drawn_lanes(texture, sampler, drawn, out);
 }
 
+void count(const Texture& texture, const TexelDraw& drawn, WaveMask mask, bool first, FetchCounter& counter) {
+    if (first) begin_lookups(texture, mask, counter);
+    counter.texture = &texture;
+    hear_texel(drawn.level, drawn.x, drawn.y, mask, drawn.border, counter);
+}
+void record(const Texture& texture, const TexelDraw& drawn, WaveMask mask, bool, TapSink& sink) {
+    FetchRecorder recorder{&sink};
+    begin_lookups(texture, mask, recorder);
+    hear_texel(drawn.level, drawn.x, drawn.y, mask, drawn.border, recorder);
+}
+
 void draw_together(const LookupSet& set, const DrawNumbers& positive, const DrawNumbers& negative, const UseTap& use) {
     draw_set(set, positive, negative, use);
 }
@@ -109,6 +120,8 @@ HWY_EXPORT(draw_absolute);
 HWY_EXPORT(read);
 HWY_EXPORT(draw_and_read);
 HWY_EXPORT(draw_together);
+HWY_EXPORT(count);
+HWY_EXPORT(record);
 HWY_EXPORT(enumerate);
 
 void draw_numbers(const RandomAddress& first, DrawNumbers& numbers) { HWY_DYNAMIC_DISPATCH(hash_numbers)(first, false, numbers); }
@@ -131,6 +144,13 @@ void draw_absolute_wave(Texture& texture, const SamplerState& sampler, const Wav
                         TexelDraw& drawn, WaveFloat& factor, const WaveFloat* layer) {
     assert(mask != 0 && texture.shape().depth == 1);
     HWY_DYNAMIC_DISPATCH(draw_absolute)(texture, sampler, at, mask, numbers, drawn, factor, layer);
+}
+
+void count_drawn_wave(const Texture& texture, const TexelDraw& drawn, WaveMask mask, bool first, FetchCounter& counter) {
+    HWY_DYNAMIC_DISPATCH(count)(texture, drawn, mask, first, counter);
+}
+void record_drawn_wave(const Texture& texture, const TexelDraw& drawn, WaveMask mask, bool first, TapSink& sink) {
+    HWY_DYNAMIC_DISPATCH(record)(texture, drawn, mask, first, sink);
 }
 
 void read_drawn_wave(Texture& texture, const SamplerState& sampler, const TexelDraw& drawn, WaveColor& out) {

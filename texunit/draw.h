@@ -54,6 +54,11 @@ void draw_signed_wave(Texture& texture, const SamplerState& sampler, const WaveC
 void draw_absolute_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
                         TexelDraw& draw, WaveFloat& factor, const WaveFloat* layer = nullptr);
 
+/// What a draw of the lanes of `mask` asks for, of slice 0: added to `counter`, or told to `sink`. `first`: of the lookup's draws, which
+/// begins it.
+void count_drawn_wave(const Texture& texture, const TexelDraw& draw, WaveMask mask, bool first, FetchCounter& counter);
+void record_drawn_wave(const Texture& texture, const TexelDraw& draw, WaveMask mask, bool first, TapSink& sink);
+
 /// The drawn texels, linear RGBA. Throws TextureError as sample_wave does.
 void read_drawn_wave(Texture& texture, const SamplerState& sampler, const TexelDraw& draw, WaveColor& out);
 

@@ -154,6 +154,7 @@ int ExplainCommand::run(const Invocation& invocation) {
     progress.finish();
 
     PixelFrame frame{scene, lighting, frame_options(request_, view.camera), *pixel_};
+    check_lookups(scene, frame.options);
     frame.options.crop = {pixel_->x, pixel_->y, 1, 1};
     frame.options.fetches = {};
     const auto report = json_ ? make_explanation_json(invocation.out) : make_explanation_text(invocation.out);

@@ -193,6 +193,7 @@ int RenderCommand::run(const Invocation& invocation) {
     record.request = request_;
     record.times.load_s = ProgressReport::steady_seconds() - start;
     shading::RenderOptions options = frame_options(request_, view.camera);
+    check_lookups(scene, options);
     options.aovs = aovs_;
     options.fetches.pixel_layers = !counts_.empty();
     std::optional<TraceFile> trace;

@@ -43,6 +43,7 @@ class Relooker final : public LookupListener {
             for (int c = 0; c < 3; ++c) pixel[c] = color.channel[c][lane];
         }
     }
+    void drawn(const ListenedDraw&) override {}
     void end_wave() override {}
     void end_sample() override {}
     void end_tile() override {}

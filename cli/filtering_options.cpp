@@ -1,0 +1,54 @@
+#include "cli/filtering_options.h"
+
+#include "cli/option_values.h"
+
+namespace rawtexel::cli {
+
+using shading::FilteringOptions;
+using shading::FilterOrder;
+using shading::NumberSharing;
+using texunit::Estimator;
+
+void declare_filtering_options(CommandLine& line, FilteringOptions& filtering) {
+    line.option("--estimator", "all|reservoir|jitter|abs-weight",
+                "every tap weighed (the default); one drawn from the weights, two where a kernel has negative lobes; the coordinate "
+                "jittered, then the nearest texel; one drawn by magnitude, for comparison",
+                [&](const std::string& text) {
+                    filtering.estimator =
+                        parse_choice("--estimator", text, {Estimator::All, Estimator::Reservoir, Estimator::Jitter, Estimator::AbsWeight});
+                });
+    line.option("--taps", "K", "draws a lookup, 1 to " + std::to_string(shading::kMostTaps) + " (default 1)",
+                [&](const std::string& text) { filtering.taps = int(parse_integer("--taps", text, 1, shading::kMostTaps)); });
+    line.option("--order", "before|after",
+                "maps are filtered, then shaded; or raw texels are shaded, then filtered (default before with all, after with an estimator "
+                "that draws)",
+                [&](const std::string& text) {
+                    filtering.order = parse_choice("--order", text, {FilterOrder::Before, FilterOrder::After});
+                });
+    line.option("--random", "shared|per-map",
+                "the maps of a material draw with the same numbers (the default), or each with its own: the named wrong way",
+                [&](const std::string& text) {
+                    filtering.sharing = parse_choice("--random", text, {NumberSharing::Shared, NumberSharing::PerMap});
+                });
+    line.option("--signed-numbers", "independent|common",
+                "numbers of the draws from positive and from negative weights: their own (the default), or the same",
+                [&](const std::string& text) {
+                    filtering.common_numbers = parse_word("--signed-numbers", text, {"independent", "common"}) == 1;
+                });
+}
+
+void check_filtering(const FilteringOptions& filtering, const std::optional<texunit::Kernel>& filter) {
+    if (!filtering.draws()) {
+        if (filtering.taps != 1) throw UsageError("--taps: --estimator all weighs every tap and draws none");
+        if (filtering.sharing == NumberSharing::PerMap) throw UsageError("--random per-map: --estimator all draws no numbers");
+        if (filtering.common_numbers) throw UsageError("--signed-numbers common: --estimator all draws no numbers");
+        return;
+    }
+    const bool one_texel = !filter || texunit::weighs_as_probability(*filter);
+    if (filtering.order == FilterOrder::Before && filtering.taps == 1 && one_texel)
+        throw UsageError(
+            "--order before: one draw is a raw texel, which is shaded as it is: that is --order after (--taps 2 and more "
+            "are averaged before shading)");
+}
+
+}  // namespace rawtexel::cli

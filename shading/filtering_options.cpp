@@ -1,0 +1,20 @@
+#include "shading/filtering_options.h"
+
+namespace rawtexel::shading {
+
+std::string_view to_string(FilterOrder order) { return order == FilterOrder::After ? "after" : "before"; }
+std::string_view to_string(NumberSharing sharing) { return sharing == NumberSharing::PerMap ? "per-map" : "shared"; }
+
+std::optional<FilterOrder> parse_filter_order(std::string_view text) {
+    if (text == "before") return FilterOrder::Before;
+    if (text == "after") return FilterOrder::After;
+    return std::nullopt;
+}
+
+std::optional<NumberSharing> parse_number_sharing(std::string_view text) {
+    if (text == "shared") return NumberSharing::Shared;
+    if (text == "per-map") return NumberSharing::PerMap;
+    return std::nullopt;
+}
+
+}  // namespace rawtexel::shading

@@ -1,0 +1,38 @@
+// How maps become light: filtered before shading or after it, with which estimator, from which numbers.
+#pragma once
+
+#include "texunit/estimator.h"
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace rawtexel::shading {
+
+/// before: maps are filtered, then shaded once. after: raw texels are shaded, then the light is filtered (Pharr, Wronski, Salvi and Fajardo
+/// 2024). Both agree where shading is affine in the maps.
+enum class FilterOrder : uint8_t { Before, After };
+/// Whether the maps of a material draw with the same numbers. Numbers of their own make the mean of a product the product of means: the
+/// result is that of filtering before shading, with noise.
+enum class NumberSharing : uint8_t { Shared, PerMap };
+
+std::string_view to_string(FilterOrder order);      // before after
+std::string_view to_string(NumberSharing sharing);  // shared per-map
+std::optional<FilterOrder> parse_filter_order(std::string_view text);
+std::optional<NumberSharing> parse_number_sharing(std::string_view text);
+
+inline constexpr int kMostTaps = 1024;
+
+struct FilteringOptions {
+    texunit::Estimator estimator = texunit::Estimator::All;
+    std::optional<FilterOrder> order;  ///< nullopt: before with All, after with one that draws
+    int taps = 1;                      ///< draws a lookup, 1..kMostTaps
+    NumberSharing sharing = NumberSharing::Shared;
+    /// Whether the draws of either sign, of kernels with negative lobes, use the same numbers.
+    bool common_numbers = false;
+
+    bool draws() const { return estimator != texunit::Estimator::All; }
+    FilterOrder effective_order() const { return order.value_or(draws() ? FilterOrder::After : FilterOrder::Before); }
+};
+
+}  // namespace rawtexel::shading
