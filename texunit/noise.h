@@ -33,8 +33,8 @@ std::optional<Noise> parse_noise(std::string_view text);
 /// instruction set; sample n of a pixel does not depend on how many there are. Dimensions and surfaces are unrelated to each other.
 void noise_wave(Noise noise, const RandomAddress& first, WaveFloat& numbers);
 
-/// The numbers of two dimensions that are used together, such as TapX and TapY: `a` are those of noise_wave for first.dimension; with them
-/// `b` is even over the unit square as well, for sobol a (0, 2)-net, for blue and stbn by a mask of pairs.
+/// The numbers of two dimensions that are used together, such as TapX and TapY. `a` are those of noise_wave for first.dimension. Where the
+/// noise can it makes the points (a, b) even over the unit square: (0, 2)-nets of sobol, the R2 sequence, masks of pairs for blue and stbn.
 void noise_pair_wave(Noise noise, const RandomAddress& first, Dimension second, WaveFloat& a, WaveFloat& b);
 
 }  // namespace rawtexel::texunit

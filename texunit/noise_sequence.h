@@ -60,7 +60,7 @@ constexpr uint32_t kronecker_offset(const RandomAddress& address, Dimension dime
 /// Where in a mask a wave's numbers are, and how they are changed.
 struct MaskPlace {
     uint32_t x, y;    ///< added to the pixel's
-    uint32_t slice;   ///< offset of its first entry
+    uint32_t slice;   ///< of the first sample of the period
     uint32_t key;     ///< of the bits below the ranks
     uint32_t flip_a;  ///< all ones where the numbers run downwards
     uint32_t flip_b;  ///< of the second numbers of pairs
