@@ -30,6 +30,11 @@ void declare_filtering_options(CommandLine& line, FilteringOptions& filtering) {
                 [&](const std::string& text) {
                     filtering.sharing = parse_choice("--random", text, {NumberSharing::Shared, NumberSharing::PerMap});
                 });
+    line.option("--noise", "white|sobol|r2|blue|stbn", "numbers of the draws: one of `rawtexel list noises` (default white)",
+                [&](const std::string& text) {
+                    using texunit::Noise;
+                    filtering.noise = parse_choice("--noise", text, {Noise::White, Noise::Sobol, Noise::R2, Noise::Blue, Noise::Stbn});
+                });
     line.option("--signed-numbers", "independent|common",
                 "numbers of the draws from positive and from negative weights: their own (the default), or the same",
                 [&](const std::string& text) {

@@ -57,6 +57,7 @@ void add_to_plan(const MaterialState& state, int slot, TapPlan& plan) {
 void make_plans(const FilteringOptions& filtering, MaterialState& state) {
     state.plans.taps = filtering.taps;
     state.plans.common_numbers = filtering.common_numbers;
+    state.plans.noise = filtering.noise;
     state.sharing = filtering.sharing;
     const bool after = filtering.effective_order() == FilterOrder::After;
     state.plans.enumerates = after && !filtering.draws();

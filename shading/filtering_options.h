@@ -2,6 +2,7 @@
 #pragma once
 
 #include "texunit/estimator.h"
+#include "texunit/noise.h"
 
 #include <cstdint>
 #include <optional>
@@ -25,11 +26,12 @@ inline constexpr int kMostTaps = 1024;
 
 struct FilteringOptions {
     texunit::Estimator estimator = texunit::Estimator::All;
-    std::optional<FilterOrder> order;  ///< nullopt: before with All, after with one that draws
+    std::optional<FilterOrder> order = std::nullopt;  ///< nullopt: before with All, after with one that draws
     int taps = 1;                      ///< draws a lookup, 1..kMostTaps
     NumberSharing sharing = NumberSharing::Shared;
     /// Whether the draws of either sign, of kernels with negative lobes, use the same numbers.
     bool common_numbers = false;
+    texunit::Noise noise = texunit::Noise::White;  ///< of the draws
 
     bool draws() const { return estimator != texunit::Estimator::All; }
     FilterOrder effective_order() const { return order.value_or(draws() ? FilterOrder::After : FilterOrder::Before); }

@@ -114,11 +114,11 @@ class MaterialTaps {
     }
 
     void find_numbers(const texunit::RandomAddress& address, texunit::DrawNumbers& positive, texunit::DrawNumbers& negative) const {
-        draw_numbers(address, positive);
+        draw_numbers(address, positive, material().plans.noise);
         if (material().plans.common_numbers) {
             negative = positive;
         } else {
-            negative_draw_numbers(address, negative);
+            negative_draw_numbers(address, negative, material().plans.noise);
         }
     }
 

@@ -27,6 +27,7 @@ struct TapPlans {
     bool enumerates = false;  ///< every tap of `shaded`, instead of draws
     int taps = 1;             ///< draws
     bool common_numbers = false;
+    texunit::Noise noise = texunit::Noise::White;
 
     bool draws() const { return !averaged.empty() || !shaded.empty(); }
 };

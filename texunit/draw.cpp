@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 
 #include "texunit/draw-inl.h"
+#include "texunit/noise-inl.h"
 #include "texunit/random-inl.h"
 #include "texunit/shared_draw-inl.h"
 
@@ -39,6 +40,19 @@ void hash_numbers(const RandomAddress& first, bool negative, DrawNumbers& number
         number(Dimension::Level, numbers.level);
         number(Dimension::Probe, numbers.probe);
     }
+}
+
+void find_noise(Noise noise, const RandomAddress& first, bool negative, DrawNumbers& numbers) {
+    const TexelDimensions& texel = negative ? kNegative : kPositive;
+    const auto of = [&](Dimension dimension) {
+        RandomAddress address = first;
+        address.dimension = dimension;
+        return address;
+    };
+    noise_pair_wave(noise, of(texel.x), texel.y, numbers.x, numbers.y);
+    noise_wave(noise, of(texel.sign), numbers.sign);
+    noise_wave(noise, of(Dimension::Level), numbers.level);
+    noise_wave(noise, of(Dimension::Probe), numbers.probe);
 }
 
 /// Coordinates whose inactive lanes repeat an active one, and the layers.
@@ -114,6 +128,7 @@ HWY_AFTER_NAMESPACE();
 namespace rawtexel::texunit {
 
 HWY_EXPORT(hash_numbers);
+HWY_EXPORT(find_noise);
 HWY_EXPORT(draw);
 HWY_EXPORT(draw_signed);
 HWY_EXPORT(draw_absolute);
@@ -124,8 +139,14 @@ HWY_EXPORT(count);
 HWY_EXPORT(record);
 HWY_EXPORT(enumerate);
 
-void draw_numbers(const RandomAddress& first, DrawNumbers& numbers) { HWY_DYNAMIC_DISPATCH(hash_numbers)(first, false, numbers); }
-void negative_draw_numbers(const RandomAddress& first, DrawNumbers& numbers) { HWY_DYNAMIC_DISPATCH(hash_numbers)(first, true, numbers); }
+void draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise) {
+    if (noise == Noise::White) return HWY_DYNAMIC_DISPATCH(hash_numbers)(first, false, numbers);
+    HWY_DYNAMIC_DISPATCH(find_noise)(noise, first, false, numbers);
+}
+void negative_draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise) {
+    if (noise == Noise::White) return HWY_DYNAMIC_DISPATCH(hash_numbers)(first, true, numbers);
+    HWY_DYNAMIC_DISPATCH(find_noise)(noise, first, true, numbers);
+}
 
 void draw_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
                TexelDraw& drawn, const WaveFloat* layer) {

@@ -3,6 +3,7 @@
 // such as the maps of a material, are drawn together by texunit/shared_draw.h.
 #pragma once
 
+#include "texunit/noise.h"
 #include "texunit/random.h"
 #include "texunit/sample.h"
 
@@ -18,9 +19,9 @@ struct DrawNumbers {
 };
 
 /// The numbers of a wave whose upper left pixel is (first.x, first.y); first.dimension is not looked at.
-void draw_numbers(const RandomAddress& first, DrawNumbers& numbers);
+void draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise = Noise::White);
 /// Those of the negative weights' texel: its own but for level and probe, which both share.
-void negative_draw_numbers(const RandomAddress& first, DrawNumbers& numbers);
+void negative_draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise = Noise::White);
 
 /// The texel that each lane drew.
 struct TexelDraw {
