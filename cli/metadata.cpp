@@ -20,6 +20,11 @@ scenes::Metadata image_metadata(const RunRecord& record, bool has_display_transf
         {"rawtexel:pixel-filter", std::string(to_string(request.samples.pixel_filter))},
         {"rawtexel:pixel-jitter", std::string(to_string(request.samples.pixel_jitter))},
     };
+    if (request.sequence.is_sequence()) {
+        metadata.emplace_back("rawtexel:frames", std::to_string(request.sequence.frames));
+        metadata.emplace_back("rawtexel:accumulate", print_accumulate(request.sequence));
+        if (request.sequence.path) metadata.emplace_back("rawtexel:camera-path", print(*request.sequence.path));
+    }
     for (const auto& [name, choice] : print_choices(request.lookup)) metadata.emplace_back("rawtexel:" + name, choice);
     if (request.crop.width > 0) metadata.emplace_back("rawtexel:crop", print(request.crop));
     if (has_display_transform) {

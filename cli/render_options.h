@@ -6,6 +6,7 @@
 #include "cli/fetch_options.h"
 #include "cli/lookup_options.h"
 #include "cli/progress.h"
+#include "cli/sequence_options.h"
 #include "shading/display.h"
 #include "shading/render.h"
 #include "texunit/simd.h"
@@ -93,6 +94,7 @@ struct RenderRequest {
     LightOptions light;
     LookupOptions lookup;
     SampleOptions samples;
+    SequenceOptions sequence;  ///< of `render` alone
     ToneOptions tone;
     FetchRequest fetches;
     MachineOptions machine;

@@ -39,6 +39,20 @@ Json frame_numbers(const std::vector<double>& frame_s) {
     return {{"min", std::ranges::min(frame_s)}, {"median", median(frame_s)}, {"n", frame_s.size()}};
 }
 
+/// What the frames of a sequence became.
+Json sequence_numbers(const RunRecord& record) {
+    const SequenceRecord& sequence = *record.sequence;
+    const SequenceOptions& options = record.request.sequence;
+    Json json{{"frames", sequence.frames}, {"accumulate", print_accumulate(options)}, {"accumulate_s", sequence.accumulate_s}};
+    if (options.path) json["camera_path"] = print(*options.path);
+    if (sequence.flicker_rms) {
+        json["flicker_rms"] = *sequence.flicker_rms;
+        json["flicker_frames"] = sequence.flicker_frames;
+    }
+    if (sequence.disoccluded) json["disoccluded"] = *sequence.disoccluded;
+    return json;
+}
+
 Json time_numbers(const RunRecord& record) {
     const shading::RenderTimes& frame = record.result.times;
     return {{"load", record.times.load_s}, {"geometry", frame.geometry_s},  {"raster", frame.raster_s},
@@ -94,6 +108,7 @@ std::string stats_json(const RunRecord& record, const shading::Scene& scene) {
               {"time_s", time_numbers(record)},
               {"memory_bytes", memory_numbers(record, scene)},
               {"geometry", geometry_numbers(record.result.geometry)}};
+    if (record.sequence) json["sequence"] = sequence_numbers(record);
     add_texture_stats(record, scene, json);
     // Names come from files: bytes that are no UTF-8 are replaced, not refused.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -88,8 +88,9 @@ View file_view(const Scene& scene, size_t index, const ViewOptions& options, con
         camera.type = Camera::Type::Perspective;
         camera.vertical_fov = glm::radians(*options.fov);
     }
-    if (is_upright_perspective(camera)) return {camera, print_options(look_of(camera, bounds))};
-    return {camera, "--camera " + std::to_string(index) + (options.fov ? " --fov " + print_number(*options.fov) : "")};
+    const LookAt look = look_of(camera, bounds);
+    if (is_upright_perspective(camera)) return {camera, look.target, index, print_options(look)};
+    return {camera, look.target, index, "--camera " + std::to_string(index) + (options.fov ? " --fov " + print_number(*options.fov) : "")};
 }
 
 }  // namespace
@@ -107,7 +108,8 @@ View choose_view(const Scene& scene, const ViewOptions& options, float aspect) {
         // Past the poles the image's top is no longer up: only the orbit itself says so.
         const Camera camera = orbiting_camera(bounds, *options.orbit, options.fov.value_or(kDefaultFov), aspect);
         if (!is_upright_perspective(camera))
-            return {camera, "--orbit " + print(*options.orbit) + (options.fov ? " --fov " + print_number(*options.fov) : "")};
+            return {camera, bounds.center(), std::nullopt,
+                    "--orbit " + print(*options.orbit) + (options.fov ? " --fov " + print_number(*options.fov) : "")};
     }
 
     LookAt look = file_camera ? look_of(scene.cameras[*file_camera], bounds) : framing_look(bounds, options, aspect);
@@ -115,7 +117,7 @@ View choose_view(const Scene& scene, const ViewOptions& options, float aspect) {
     if (options.target) look.target = *options.target;
     if (options.fov) look.fov = *options.fov;
     if (look.eye == look.target) throw UsageError("--eye and --target are the same point, " + print_vector(look.eye));
-    return {shading::look_at_camera(bounds, look.eye, look.target, look.fov), print_options(look)};
+    return {shading::look_at_camera(bounds, look.eye, look.target, look.fov), look.target, std::nullopt, print_options(look)};
 }
 
 }  // namespace rawtexel::cli

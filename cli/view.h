@@ -5,12 +5,16 @@
 #include "shading/camera.h"
 #include "shading/scene.h"
 
+#include <cstddef>
+#include <optional>
 #include <string>
 
 namespace rawtexel::cli {
 
 struct View {
     shading::Camera camera;
+    glm::vec3 target{0.0f};              ///< what it looks at, or passes at the height of the scene's centre
+    std::optional<size_t> scene_camera;  ///< the camera is this one of the scene's, its planes too
     /// The options that choose the same camera again, such as "--eye 1,2,3 --target 0,0,0 --fov 45".
     std::string options;
 };

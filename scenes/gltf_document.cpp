@@ -82,7 +82,8 @@ void check_extensions(const GltfDocument& document, const json& checked, const L
 /// What the document holds and the scene will not.
 void tell_of_animations(const GltfDocument& document, const json& original, const LoadOptions& options) {
     const auto animations = original.find("animations");
-    if (animations != original.end() && !animations->empty()) options.warn(document.path + ": animations are left out");
+    if (animations == original.end() || animations->empty()) return;
+    options.warn(document.path + (options.camera_animations ? ": animations move nothing but the camera" : ": animations are left out"));
 }
 
 SharedBytes read_all(const texunit::ByteSource& source) { return std::make_shared<const std::vector<std::byte>>(all_bytes(source)); }
@@ -269,7 +270,7 @@ GltfDocument read_gltf_document(const std::string& path, const LoadOptions& opti
     const json original = parse_json(path, container.json);
     json checked;
     try {
-        checked = checked_gltf(original);
+        checked = checked_gltf(original, {.animations = options.camera_animations});
     } catch (const SchemaError& error) {
         document.fail(one_line(error.what()));
     }

@@ -1,6 +1,7 @@
 #include "scenes/gltf_lights.h"
 
 #include "scenes/message_text.h"
+#include "shading/camera_animation.h"
 
 #include <cmath>
 #include <optional>
@@ -11,15 +12,6 @@ namespace {
 glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& otherwise) {
     const double length = glm::length(v);
     return length > 0.0 ? v / length : otherwise;
-}
-
-/// Rotation and position: looks along the node's -Z, its +Y as nearly up as that allows.
-glm::mat4 rigid(const glm::dmat4& world) {
-    const glm::dvec3 z = unit_or(glm::dvec3(world[2]), {0.0, 0.0, 1.0});
-    const glm::dvec3 y = glm::dvec3(world[1]);
-    const glm::dvec3 any_side = std::abs(z.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
-    const glm::dvec3 x = unit_or(glm::cross(y, z), unit_or(any_side - z * glm::dot(any_side, z), any_side));
-    return glm::mat4(glm::dmat4(glm::dvec4(x, 0.0), glm::dvec4(glm::cross(z, x), 0.0), glm::dvec4(z, 0.0), world[3]));
 }
 
 std::optional<shading::Light::Type> light_type(const std::string& name) {
@@ -64,7 +56,7 @@ shading::Camera read_camera(const GltfDocument& document, int index, const glm::
     const std::string what = "cameras[" + std::to_string(index) + "]";
     shading::Camera camera;
     camera.name = source.name.empty() ? "camera " + std::to_string(index) : one_line(source.name);
-    camera.world_from_camera = rigid(world);
+    camera.world_from_camera = shading::rigid_pose(world);
     const bool perspective = source.type == "perspective";
     const double znear = perspective ? source.perspective.znear : source.orthographic.znear;
     const double zfar = perspective ? source.perspective.zfar : source.orthographic.zfar;

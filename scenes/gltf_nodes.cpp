@@ -91,9 +91,11 @@ GltfNodes flatten_nodes(const GltfDocument& document) {
     }
 
     GltfNodes nodes;
+    nodes.parent = parents;
+    nodes.local.resize(parents.size());
     nodes.world.resize(parents.size());
     for (const int node : all) {
-        const glm::dmat4 local = local_matrix(document, size_t(node));
+        const glm::dmat4& local = nodes.local[size_t(node)] = local_matrix(document, size_t(node));
         const int parent = parents[size_t(node)];
         nodes.world[size_t(node)] = parent == kNone ? local : nodes.world[size_t(parent)] * local;
         check_finite(document, nodes.world[size_t(node)], size_t(node));

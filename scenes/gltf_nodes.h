@@ -10,6 +10,8 @@
 namespace rawtexel::scenes {
 
 struct GltfNodes {
+    std::vector<int> parent;        ///< of every node, -1 for roots
+    std::vector<glm::dmat4> local;  ///< of every node: its transform to its parent
     std::vector<glm::dmat4> world;  ///< of every node, whether the scene shows it or not
     std::vector<int> shown;         ///< nodes of the scene, parents before children, children in order
 };

@@ -2,6 +2,7 @@
 #include "scenes/load.h"
 
 #include "scenes/accessor.h"
+#include "scenes/gltf_cameras.h"
 #include "scenes/gltf_deform.h"
 #include "scenes/gltf_document.h"
 #include "scenes/gltf_lights.h"
@@ -27,7 +28,8 @@ class SceneBuilder {
           notices_(document.path, options),
           accessors_(document),
           textures_(document, options, notices_),
-          nodes_(flatten_nodes(document)) {
+          nodes_(flatten_nodes(document)),
+          camera_animations_(document, accessors_, nodes_) {
         check_lights(document);
     }
 
@@ -57,9 +59,14 @@ class SceneBuilder {
         const tinygltf::Node& node = document_.model.nodes[size_t(index)];
         const glm::dmat4& world = nodes_.world[size_t(index)];
         if (node.mesh >= 0) add_mesh(index, node);
-        if (node.camera >= 0) scene_.cameras.push_back(read_camera(document_, node.camera, world));
+        if (node.camera >= 0) add_camera(index, node);
         if (const auto light = node.extensions.find("KHR_lights_punctual"); light != node.extensions.end())
             scene_.lights.push_back(read_light(document_, light->second.Get("light").GetNumberAsInt(), world));
+    }
+
+    void add_camera(int index, const tinygltf::Node& node) {
+        if (auto animation = camera_animations_.of(index)) scene_.camera_animations.emplace(scene_.cameras.size(), std::move(*animation));
+        scene_.cameras.push_back(read_camera(document_, node.camera, nodes_.world[size_t(index)]));
     }
 
     void add_mesh(int index, const tinygltf::Node& node) {
@@ -127,6 +134,7 @@ class SceneBuilder {
     Accessors accessors_;
     GltfTextures textures_;
     GltfNodes nodes_;
+    GltfCameraAnimations camera_animations_;
     shading::Scene scene_;
     std::map<MeshKey, std::optional<uint32_t>> meshes_;
     std::optional<uint32_t> default_material_;

@@ -210,10 +210,13 @@ void check_version(const json& document) {
 
 }  // namespace
 
-json checked_gltf(const json& document) {
+json checked_gltf(const json& document, const SchemaOptions& options) {
     check_version(document);
     const Place root{nullptr, {}};
-    return Checker(document).object(document, kDocumentRules, root);
+    const Checker checker(document);
+    json checked = checker.object(document, kDocumentRules, root);
+    if (options.animations) checked.update(checker.object(document, kAnimationRules, root));
+    return checked;
 }
 
 }  // namespace rawtexel::scenes

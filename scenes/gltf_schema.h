@@ -14,8 +14,13 @@ class SchemaError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// What of a document is not always read.
+struct SchemaOptions {
+    bool animations = false;
+};
+
 /// The part of `document` that the loader reads, every value of the right type, every index inside the array it points into, numbers as
 /// doubles. Unknown properties, extensions and extras are left out. Throws SchemaError.
-nlohmann::json checked_gltf(const nlohmann::json& document);
+nlohmann::json checked_gltf(const nlohmann::json& document, const SchemaOptions& options = {});
 
 }  // namespace rawtexel::scenes

@@ -218,6 +218,27 @@ constexpr Property kTexture[] = {
     {.name = "extensions", .kind = Kind::Object, .object = &kTextureExtensionsRules},
 };
 
+constexpr Property kAnimationTarget[] = {
+    {.name = "node", .kind = Kind::Index, .refers_to = "nodes"},
+    {.name = "path", .kind = Kind::Text, .required = true},
+};
+constexpr ObjectRules kAnimationTargetRules{kAnimationTarget};
+constexpr Property kAnimationChannel[] = {
+    {.name = "sampler", .kind = Kind::Integer, .required = true, .minimum = 0, .maximum = kMaxInt},
+    {.name = "target", .kind = Kind::Object, .required = true, .object = &kAnimationTargetRules},
+};
+constexpr Property kAnimationSampler[] = {
+    {.name = "input", .kind = Kind::Index, .required = true, .refers_to = "accessors"},
+    {.name = "interpolation", .kind = Kind::Text},
+    {.name = "output", .kind = Kind::Index, .required = true, .refers_to = "accessors"},
+};
+constexpr ObjectRules kAnimationChannelRules{kAnimationChannel}, kAnimationSamplerRules{kAnimationSampler};
+constexpr Property kAnimation[] = {
+    {.name = "name", .kind = Kind::Text},
+    {.name = "channels", .kind = Kind::Objects, .required = true, .object = &kAnimationChannelRules},
+    {.name = "samplers", .kind = Kind::Objects, .required = true, .object = &kAnimationSamplerRules},
+};
+
 constexpr std::string_view kConeAngle = "an angle in radians from 0 to pi/2, 90\u00b0";
 constexpr Property kSpot[] = {
     {.name = "innerConeAngle", .kind = Kind::Number, .minimum = 0, .maximum = kPi / 2, .allowed = kConeAngle},
@@ -244,6 +265,10 @@ constexpr Property kDocumentExtensions[] = {
 constexpr ObjectRules kAccessorRules{kAccessor}, kAssetRules{kAsset}, kBufferRules{kBuffer}, kBufferViewRules{kBufferView},
     kCameraRules{kCamera}, kImageRules{kImage}, kMaterialRules{kMaterial}, kMeshRules{kMesh}, kNodeRules{kNode}, kSamplerRules{kSampler},
     kSceneRules{kScene}, kSkinRules{kSkin}, kTextureRules{kTexture}, kDocumentExtensionsRules{kDocumentExtensions};
+constexpr ObjectRules kOneAnimationRules{kAnimation};
+constexpr Property kAnimations[] = {
+    {.name = "animations", .kind = Kind::Objects, .object = &kOneAnimationRules},
+};
 constexpr Property kDocument[] = {
     {.name = "asset", .kind = Kind::Object, .required = true, .object = &kAssetRules},
     {.name = "extensionsUsed", .kind = Kind::Texts},
@@ -266,6 +291,6 @@ constexpr Property kDocument[] = {
 
 }  // namespace
 
-const ObjectRules kDocumentRules{kDocument};
+const ObjectRules kDocumentRules{kDocument}, kAnimationRules{kAnimations};
 
 }  // namespace rawtexel::scenes

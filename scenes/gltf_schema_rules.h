@@ -52,7 +52,7 @@ struct ObjectRules {
     std::span<const Property> properties;
 };
 
-/// Of the whole document.
-extern const ObjectRules kDocumentRules;
+/// Of the whole document, but for its animations; and of these.
+extern const ObjectRules kDocumentRules, kAnimationRules;
 
 }  // namespace rawtexel::scenes

@@ -19,6 +19,7 @@ class InputError : public std::runtime_error {
 struct LoadOptions {
     texunit::TextureOptions texture;
     texunit::ContainerOptions files;  ///< the limit holds for images too
+    bool camera_animations = false;   ///< read what moves the scene's cameras; other animations are left out all the same
     /// Told once of each thing that is left out: an unknown optional extension, an animation, a skin.
     std::function<void(const std::string&)> warn = [](const std::string&) {};
     /// Told of every file that the scene was read from, by its path.

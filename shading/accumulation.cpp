@@ -48,8 +48,9 @@ void SampleTree::add(uint64_t sample, std::span<const float> values) {
 }
 
 void SampleTree::merge(const SampleTree& other) {
-    assert(other.width_ == width_ && &other != this);
-    for (const Range& range : other.ranges_) insert(copy_of(range.first, range.level, range.low, range.high));
+    assert(other.width_ >= width_ && &other != this);
+    const auto leading = [&](const auto& values) { return std::span(values).first(std::min(width_, values.size())); };
+    for (const Range& range : other.ranges_) insert(copy_of(range.first, range.level, leading(range.low), leading(range.high)));
 }
 
 bool SampleTree::are_siblings(const Range& left, const Range& right) const {

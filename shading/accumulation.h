@@ -25,7 +25,7 @@ class SampleTree {
     void clear();
     /// Adds one sample that is not held yet (asserted); `values` has `width` entries.
     void add(uint64_t sample, std::span<const float> values);
-    /// Adds the samples of `other`, none of which is held yet (asserted).
+    /// Adds the samples of `other`, none of which is held yet (asserted): their first width() entries, where they have more.
     void merge(const SampleTree& other);
 
     /// Sum of entries [first, first + sum.size()) over all samples: the ranges added in double from the last to the first.

@@ -21,20 +21,19 @@ float fitting_distance(const Bounds& bounds, float aspect, float vertical_fov) {
     return framed_radius(bounds) / std::sin(std::min(half_vertical, half_horizontal));
 }
 
-/// Half-way to the scene's sphere, or a ten-thousandth of its radius from inside. Reversed float depth is as fine at any distance
-/// for any near plane, so nothing is lost by a close one.
-float near_plane(const Bounds& bounds, const glm::vec3& eye) {
-    const float radius = framed_radius(bounds);
-    const float gap = glm::length(eye - bounds.center()) - radius;
-    return std::max(0.5f * gap, 1e-4f * radius);
-}
-
 /// Rigid camera-to-world transform with axes right, up, backward.
 glm::mat4 pose(const glm::vec3& right, const glm::vec3& up, const glm::vec3& backward, const glm::vec3& eye) {
     return {glm::vec4(right, 0.0f), glm::vec4(up, 0.0f), glm::vec4(backward, 0.0f), glm::vec4(eye, 1.0f)};
 }
 
 }  // namespace
+
+float near_plane(const Bounds& bounds, const glm::vec3& eye) {
+    // Reversed float depth is as fine at any distance for any near plane, so nothing is lost by a close one.
+    const float radius = framed_radius(bounds);
+    const float gap = glm::length(eye - bounds.center()) - radius;
+    return std::max(0.5f * gap, 1e-4f * radius);
+}
 
 glm::mat4 clip_from_world(const Camera& camera, float aspect) {
     glm::mat4 clip_from_camera(0.0f);

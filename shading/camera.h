@@ -17,4 +17,7 @@ Camera orbit_camera(const Bounds& bounds, float aspect, float yaw, float pitch, 
 /// `vertical_fov` in degrees; near plane chosen from the scene's bounds.
 Camera look_at_camera(const Bounds& bounds, const glm::vec3& eye, const glm::vec3& target, float vertical_fov = 45.0f);
 
+/// The near plane of these cameras: half-way to the scene's sphere, or a ten-thousandth of its radius from inside.
+float near_plane(const Bounds& bounds, const glm::vec3& eye);
+
 }  // namespace rawtexel::shading

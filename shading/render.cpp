@@ -3,6 +3,7 @@
 #include "shading/camera.h"
 #include "shading/draw_state.h"
 #include "shading/fetch_account.h"
+#include "shading/temporal_sums.h"
 #include "shading/tile.h"
 #include "shading/tile_range.h"
 #include "shading/tile_resolve.h"
@@ -61,7 +62,11 @@ TileTotals render_tiles(const TileInputs& inputs, FetchAccount* account, const R
     const auto render_one = [&](int64_t tile, Worker& worker) {
         render_tile(inputs, tiles.x(tile), tiles.y(tile), worker.scratch);
         worker.resolver.resolve(tiles.x(tile), tiles.y(tile), worker.scratch, options.aovs, result);
+        if (!options.sums) return;
+        const SampleTree& all = options.sums->add(tile, worker.scratch.sums);
+        worker.resolver.resolve_radiance(tiles.x(tile), tiles.y(tile), all, result);
     };
+    if (options.sums) options.sums->prepare(tiles.count(), inputs.frame->options().tile_size);
     executor.parallel_for(tiles.count(), [&](int64_t index, int number) {
         std::unique_ptr<Worker>& worker = workers[size_t(number)];
         if (!worker) {

@@ -24,6 +24,8 @@
 
 namespace rawtexel::shading {
 
+class TemporalSums;
+
 struct Crop {
     int x = 0, y = 0, width = 0, height = 0;  ///< pixels; zero extents: the whole frame
 };
@@ -48,7 +50,10 @@ struct RenderOptions {
     std::optional<glm::vec3> background;                       ///< nullopt: the environment, black where there is none
     std::vector<Aov> aovs;
     bool coverage = false;  ///< fill RenderResult::coverage
-    FetchOptions fetches;   ///< what RenderResult::fetches is to hold; layers of counts ask for theirs themselves
+    /// Keeps the samples of earlier parts: RenderResult::radiance is then the mean over them and this part's, which are added. Parts differ
+    /// in first_sample, spp, camera and layers alone, and no sample is of two (asserted).
+    TemporalSums* sums = nullptr;
+    FetchOptions fetches;  ///< what RenderResult::fetches is to hold; layers of counts ask for theirs themselves
     /// Hears of every lookup in place of counters: one thread's executor is wanted.
     LookupListener* listener = nullptr;
     FragmentListener* fragment_listener = nullptr;  ///< watches every fragment; one thread's executor is wanted

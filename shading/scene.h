@@ -1,6 +1,7 @@
 // The scene as data: meshes, materials, textures, lights, cameras. Loading it is another room's work.
 #pragma once
 
+#include "shading/camera_animation.h"
 #include "texunit/containers.h"
 #include "texunit/sampler.h"
 #include "texunit/texture.h"
@@ -8,7 +9,9 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -112,6 +115,8 @@ struct Scene {
     std::vector<SceneTexture> textures;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
+    /// Of the cameras that move, by their index; only where the loader was asked for them.
+    std::map<size_t, CameraAnimation> camera_animations;
     EnvironmentRequest environment = EnvironmentRequest::Unspecified;
 
     uint64_t triangle_count() const;  ///< over all instances

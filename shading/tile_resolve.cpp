@@ -43,12 +43,21 @@ TileResolver::TileResolver(const TileInputs& inputs)
     hits_.resize(pixels_);
 }
 
-void TileResolver::resolve(int tile_x, int tile_y, const TileScratch& tile, std::span<const Aov> aovs, RenderResult& result) {
+void TileResolver::begin(int tile_x, int tile_y) {
     origin_x_ = tile_x * tile_size_;
     origin_y_ = tile_y * tile_size_;
     const PixelRect& visible = inputs_.visible;
     rect_ = {std::max(visible.x0, origin_x_), std::max(visible.y0, origin_y_), std::min(visible.x1, origin_x_ + tile_size_),
              std::min(visible.y1, origin_y_ + tile_size_)};
+}
+
+void TileResolver::resolve_radiance(int tile_x, int tile_y, const SampleTree& sums, RenderResult& result) {
+    begin(tile_x, tile_y);
+    put_means(sums, TilePlanes::kRadiance, result.radiance);
+}
+
+void TileResolver::resolve(int tile_x, int tile_y, const TileScratch& tile, std::span<const Aov> aovs, RenderResult& result) {
+    begin(tile_x, tile_y);
     put_means(tile.sums, TilePlanes::kRadiance, result.radiance);
     for (size_t i = 0; i < result.layers.size(); ++i) resolve_layer(aovs[i], tile, result.layers[i].image);
     if (result.coverage.width > 0) put_means(tile.sums, inputs_.planes.hits, result.coverage);

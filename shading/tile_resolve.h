@@ -20,8 +20,11 @@ class TileResolver {
 
     /// Radiance, the layers of `aovs` and, where it has an image, coverage.
     void resolve(int tile_x, int tile_y, const TileScratch& tile, std::span<const Aov> aovs, RenderResult& result);
+    /// Radiance alone, from sums whose first planes it is.
+    void resolve_radiance(int tile_x, int tile_y, const SampleTree& sums, RenderResult& result);
 
   private:
+    void begin(int tile_x, int tile_y);
     void resolve_layer(Aov aov, const TileScratch& tile, Image& image);
     /// Means over samples, or over the samples that saw a surface.
     void put_means(const SampleTree& sums, int first_plane, Image& image);

@@ -1,6 +1,8 @@
 #include "cli/commands/render.h"
 
+#include "cli/camera_path.h"
 #include "cli/fetch_files.h"
+#include "cli/frame_sequence.h"
 #include "cli/frame_setup.h"
 #include "cli/illumination.h"
 #include "cli/image_output.h"
@@ -43,6 +45,15 @@ void print_fetches(std::ostream& out, const shading::RenderResult& result) {
     out << '\n';
 }
 
+void print_sequence(std::ostream& out, const RunRecord& record) {
+    const SequenceRecord& sequence = *record.sequence;
+    out << "Frames: " << sequence.frames << ", accumulate " << print_accumulate(record.request.sequence);
+    if (sequence.flicker_rms)
+        out << ", flicker " << print_number(float(*sequence.flicker_rms)) << " over the last " << sequence.flicker_frames;
+    if (sequence.disoccluded) out << ", " << print_number(float(*sequence.disoccluded)) << " of the pixels without history";
+    out << '\n';
+}
+
 class RenderCommand : public Command {
   public:
     std::string_view name() const override { return "render"; }
@@ -59,6 +70,7 @@ class RenderCommand : public Command {
                     "scene, output, camera and environment as google/model-viewer's fidelity tools pass them; options beside it win",
                     [this](const std::string& text) { scenario_ = parse_scenario(text); });
         declare_render_options(line, request_);
+        declare_sequence_options(line, request_.sequence);
         line.group("More output");
         line.option("--aov", "LIST", "layers of an .exr: any of depth,normal,albedo,uv,lod,material,texels,lines,spp",
                     [this](const std::string& text) { aovs_ = parse_aovs(text); });
@@ -79,11 +91,16 @@ class RenderCommand : public Command {
     void settle_words();
     std::vector<OutputFile> output_files() const;
     std::vector<std::string> input_files() const;
+    void check_sequence() const;
+    void check_all_apart(std::span<const std::string> inputs) const;
     void check_before_long_work(const Invocation& invocation) const;
     shading::Scene load_scene(const Invocation& invocation, ProgressReport& progress) const;
     shading::RenderResult render_frames(const shading::Scene& scene, const shading::Lighting& lighting,
                                         const shading::RenderOptions& options, shading::Executor& executor, ProgressReport& progress,
                                         RunRecord& record) const;
+    shading::RenderResult render_sequence(const shading::Scene& scene, const View& view, const shading::Lighting& lighting,
+                                          const shading::RenderOptions& options, shading::Executor& executor, ProgressReport& progress,
+                                          RunRecord& record) const;
     void write_stats(const RunRecord& record, const shading::Scene& scene) const;
 
     std::vector<std::string> words_;
@@ -107,6 +124,23 @@ void RenderCommand::settle_words() {
     }
     if (output_.empty()) throw UsageError("-o FILE is missing (usage: rawtexel " + std::string(usage()) + ")");
     settle(request_);
+    if (request_.sequence.is_sequence()) check_sequence();
+}
+
+void RenderCommand::check_sequence() const {
+    const SequenceOptions& sequence = request_.sequence;
+    check(sequence, request_.samples.spp);
+    if (repeats_ > 1) throw UsageError("--repeat times one frame: it makes no sense beside --frames and the options with it");
+    if (request_.tone.white_backdrop)
+        throw UsageError("--scenario without a skybox asks for one image over white: --frames and the options with it make none");
+    const bool counts = request_.fetches.counts() || !counts_.empty() || !trace_.empty();
+    if (counts && request_.crop.width > 0 && sequence.temporal().accumulation == shading::Accumulation::Reproject)
+        throw UsageError("--accumulate reproject renders whole frames to cut --crop from: their fetches are not those of the crop");
+    if (!sequence.frames_out.empty()) check_image_format("--frames-out", frame_name(sequence.frames_out, 0));
+    if (sequence.flicker.empty()) return;
+    check_image_format("--flicker", sequence.flicker);
+    if (!scenes::is_float_format(sequence.flicker))
+        throw UsageError("--flicker: '" + sequence.flicker + "' cannot hold floats, a format that can is '.exr'");
 }
 
 std::vector<OutputFile> RenderCommand::output_files() const {
@@ -114,13 +148,30 @@ std::vector<OutputFile> RenderCommand::output_files() const {
     if (!stats_.empty()) files.push_back({"--stats", stats_});
     if (!counts_.empty()) files.push_back({"--counts", counts_});
     if (!trace_.empty()) files.push_back({"--trace", trace_});
+    if (!request_.sequence.flicker.empty()) files.push_back({"--flicker", request_.sequence.flicker});
+    if (!request_.sequence.frames_out.empty()) files.push_back({"--frames-out", frame_name(request_.sequence.frames_out, 0)});
     return files;
 }
 
 std::vector<std::string> RenderCommand::input_files() const {
+    std::vector<std::string> files{scene_};
     const auto& environment = request_.light.environment;
-    if (environment && environment->kind == EnvironmentKind::File) return {scene_, environment->file};
-    return {scene_};
+    if (environment && environment->kind == EnvironmentKind::File) files.push_back(environment->file);
+    const auto& path = request_.sequence.path;
+    if (path && path->kind == CameraPathKind::File) files.push_back(path->file);
+    return files;
+}
+
+// With every frame's file, one after the other: they differ from each other by their numbers.
+void RenderCommand::check_all_apart(std::span<const std::string> inputs) const {
+    std::vector<OutputFile> outputs = output_files();
+    check_apart(outputs, inputs);
+    const SequenceOptions& sequence = request_.sequence;
+    if (sequence.frames_out.empty()) return;
+    for (int frame = 1; frame < sequence.frames; ++frame) {
+        outputs.back().path = frame_name(sequence.frames_out, frame);
+        check_apart(outputs, inputs);
+    }
 }
 
 // The format is known, the places can be written.
@@ -135,14 +186,16 @@ void RenderCommand::check_before_long_work(const Invocation& invocation) const {
     if (tone_asked && scenes::is_float_format(output_))
         warn(invocation, output_ + ": --exposure, --tonemap and --transfer change nothing here, the format holds linear radiance");
     check_outputs(output_files(), input_files());
+    check_all_apart(input_files());
 }
 
 shading::Scene RenderCommand::load_scene(const Invocation& invocation, ProgressReport& progress) const {
     std::vector<std::string> opened;
     scenes::LoadOptions options = load_options(request_, invocation, progress);
+    options.camera_animations = request_.sequence.path && request_.sequence.path->kind == CameraPathKind::Gltf;
     options.opened = [&](const std::string& path) { opened.push_back(path); };
     shading::Scene scene = scenes::load(scene_, options);
-    check_apart(output_files(), opened);
+    check_all_apart(opened);
     return scene;
 }
 
@@ -164,6 +217,32 @@ shading::RenderResult RenderCommand::render_frames(const shading::Scene& scene, 
     }
     progress.finish();
     return first;
+}
+
+shading::RenderResult RenderCommand::render_sequence(const shading::Scene& scene, const View& view, const shading::Lighting& lighting,
+                                                     const shading::RenderOptions& options, shading::Executor& executor,
+                                                     ProgressReport& progress, RunRecord& record) const {
+    const SequenceOptions& sequence = request_.sequence;
+    const shading::CameraPath path = make_camera_path(sequence, scene, request_.view, view);
+    if (sequence.path) check_camera_path(path, sequence.frames, "--camera-path " + print(*sequence.path));
+    progress.begin("rendering", sample_count(options) * sequence.frames);
+    SequenceHooks hooks;
+    hooks.progress = [&](double share) { progress.update(share); };
+    hooks.first_frame_done = [&] { record.work = texture_work(scene); };
+    if (!sequence.frames_out.empty())
+        hooks.frame_done = [&](int frame, const shading::Image& image) {
+            const std::string file = frame_name(sequence.frames_out, frame);
+            shading::RenderResult shown;
+            shown.radiance = image;
+            write_image(file, shown, request_.tone, placement(request_), image_metadata(record, !scenes::is_float_format(file)));
+        };
+    SequenceResult result = cli::render_sequence({scene, lighting, options, path, sequence}, executor, hooks);
+    progress.finish();
+    record.times.frame_s = std::move(result.frame_s);
+    record.sequence = std::move(result.record);
+    if (!sequence.flicker.empty())
+        scenes::write_float(sequence.flicker, result.flicker, {}, image_metadata(record, false), placement(request_));
+    return std::move(result.result);
 }
 
 void RenderCommand::write_stats(const RunRecord& record, const shading::Scene& scene) const {
@@ -198,7 +277,8 @@ int RenderCommand::run(const Invocation& invocation) {
     options.fetches.pixel_layers = !counts_.empty();
     std::optional<TraceFile> trace;
     if (!trace_.empty()) options.fetches.trace = &trace.emplace(trace_).writer();
-    record.result = render_frames(scene, lighting, options, *executor, progress, record);
+    record.result = request_.sequence.is_sequence() ? render_sequence(scene, view, lighting, options, *executor, progress, record)
+                                                    : render_frames(scene, lighting, options, *executor, progress, record);
 
     const double write_start = ProgressReport::steady_seconds();
     const scenes::Metadata metadata = image_metadata(record, !scenes::is_float_format(output_));
@@ -211,6 +291,7 @@ int RenderCommand::run(const Invocation& invocation) {
     if (!stats_.empty()) write_stats(record, scene);
 
     invocation.out << "Camera: " << view.options << '\n';
+    if (record.sequence) print_sequence(invocation.out, record);
     if (record.result.fetches) print_fetches(invocation.out, record.result);
     invocation.out << "Saved: " << output_ << '\n';
     return kDone;

@@ -83,13 +83,14 @@ TEST(Usage, HelpIsComplete) {
     for (const char* part : {"render", "compare", "explain", "sample", "texture", "list", "export", "--version", "Exit codes"})
         EXPECT_NE(whole.out.find(part), std::string::npos) << part;
     const std::initializer_list<std::pair<const char*, std::vector<const char*>>> commands{
-        {"render", {"--size",         "--crop",         "--camera",      "--orbit",     "--eye",         "--target",
-                    "--fov",          "--light",        "--ambient",     "--shadows",   "--environment", "--environment-reflections",
-                    "--background",   "--peer-shading", "--filter",      "--mip",       "--aniso",       "--ewa",
-                    "--lod-rule",     "--lod-bias",     "--derivatives", "--footprint", "--spp",         "--pixel-filter",
-                    "--pixel-jitter", "--seed",         "--mip-storage", "--exposure",  "--tonemap",     "--transfer",
-                    "--aov",          "--count",        "--stats",       "--repeat",    "--threads",     "--tile-size",
-                    "--simd",         "--progress",     "--scenario",    "-o,--output", "SCENE",         "--help"}},
+        {"render", {"--size",         "--crop",         "--camera",      "--orbit",         "--eye",         "--target",
+                    "--fov",          "--light",        "--ambient",     "--shadows",       "--environment", "--environment-reflections",
+                    "--background",   "--peer-shading", "--filter",      "--mip",           "--aniso",       "--ewa",
+                    "--lod-rule",     "--lod-bias",     "--derivatives", "--footprint",     "--spp",         "--pixel-filter",
+                    "--pixel-jitter", "--seed",         "--mip-storage", "--exposure",      "--tonemap",     "--transfer",
+                    "--frames",       "--camera-path",  "--accumulate",  "--history-clamp", "--frames-out",  "--flicker",
+                    "--aov",          "--count",        "--stats",       "--repeat",        "--threads",     "--tile-size",
+                    "--simd",         "--progress",     "--scenario",    "-o,--output",     "SCENE",         "--help"}},
         {"compare", {"-o,--output", "--json", "--csv", "--max-rmse", "--min-psnr", "IMAGE", "REFERENCE"}},
         {"explain", {"SCENE", "--pixel", "--sample", "--json", "--size", "--camera", "--filter", "--spp", "--exposure", "--threads"}},
         {"sample", {"TEXTURE",   "--uv",      "--uvw",         "--direction", "--ddx",         "--ddy",         "--lod",
