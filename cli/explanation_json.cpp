@@ -40,6 +40,10 @@ Json lookup_json_of(const ExplainedLookup& lookup) {
                 {"ellipse", sampler.ellipse},
                 {"lod_rule", to_string(sampler.lod_rule)},
                 {"lod_bias", sampler.lod_bias}}}};
+    if (lookup.drawn) {
+        json["estimator"] = to_string(sampler.estimator);
+        return json;
+    }
     const texunit::LookupTrace trace = trace_lookup(*lookup.texture, sampler, at);
     json.update(lookup_object({*lookup.texture, sampler, place_of(at), trace}));
     return json;
@@ -58,7 +62,7 @@ void add_triangle(const ExplainedTriangle& triangle, Json& json) {
 void add_verdict(const AlphaVerdict& verdict, AlphaMode mode, Json& json) {
     json["alpha_mode"] = mode == AlphaMode::Mask ? "MASK" : "BLEND";
     json["alpha"] = verdict.alpha;
-    if (mode == AlphaMode::Mask) {
+    if (verdict.random_surface == 0) {
         json["cutoff"] = verdict.threshold;
     } else {
         json["random"] = {{"dimension", "coverage"}, {"surface", verdict.random_surface}, {"number", verdict.threshold}};
@@ -85,6 +89,35 @@ void add_reflection(const ExplainedReflection& reflection, Json& json) {
         json["light"].push_back({{"source", term.source}, {"radiance", numbers(term.radiance)}});
 }
 
+Json texels_json(const std::vector<ExplainedTexel>& texels) {
+    Json json = Json::array();
+    for (const ExplainedTexel& texel : texels) {
+        Json& each = json.emplace_back(Json{{"map", key_of(texel.slot)}, {"weight", texel.weight}});
+        if (texel.border) {
+            each["border"] = true;
+        } else {
+            each.update({{"level", texel.level}, {"x", texel.x}, {"y", texel.y}});
+        }
+        each["value"] = numbers(texel.value);
+    }
+    return json;
+}
+
+Json tap_json(const ExplainedTap& tap) {
+    Json json{{"weight", tap.weight}};
+    if (tap.alpha) json["alpha"] = *tap.alpha;
+    if (tap.numbers) {
+        const ExplainedNumbers& n = *tap.numbers;
+        json["random"] = {{"x", n.x}, {"y", n.y}, {"level", n.level}, {"probe", n.probe}, {"sign", n.sign}};
+    }
+    json["texels"] = texels_json(tap.texels);
+    json["base_color"] = numbers(tap.base_color);
+    json["normal"] = numbers(tap.normal);
+    if (tap.reflection) add_reflection(*tap.reflection, json);
+    json["radiance"] = numbers(tap.radiance);
+    return json;
+}
+
 Json surface_json(const ExplainedSurface& surface) {
     Json json = Json::object();
     add_triangle(surface.triangle, json);
@@ -97,8 +130,12 @@ Json surface_json(const ExplainedSurface& surface) {
     if (surface.vertex_color) json["vertex_color"] = numbers(*surface.vertex_color);
     json["maps"] = Json::array();
     for (const ExplainedLookup& lookup : surface.lookups) json["maps"].push_back(lookup_json_of(lookup));
-    json["base_color"] = numbers(surface.base_color);
-    if (surface.reflection) add_reflection(*surface.reflection, json);
+    if (!surface.averaged.empty()) json["averaged"] = texels_json(surface.averaged);
+    if (surface.taps.empty()) {
+        json["base_color"] = numbers(surface.base_color);
+        if (surface.reflection) add_reflection(*surface.reflection, json);
+    }
+    for (const ExplainedTap& tap : surface.taps) json["taps"].push_back(tap_json(tap));
     return json;
 }
 

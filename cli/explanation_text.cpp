@@ -37,15 +37,28 @@ std::string describe(const ExplainedTriangle& triangle) {
 
 std::string describe(const AlphaVerdict& verdict, AlphaMode mode) {
     const std::string alpha = print_number(verdict.alpha), threshold = print_number(verdict.threshold);
-    if (mode == AlphaMode::Mask)
+    if (verdict.random_surface == 0)
         return "MASK: alpha " + alpha + (verdict.covers ? " >= " : " < ") + "cutoff " + threshold +
                (verdict.covers ? ": covers" : ": lets through");
-    return "BLEND: random number " + threshold + (verdict.covers ? " < " : " >= ") + "alpha " + alpha +
+    const std::string share = mode == AlphaMode::Mask ? "MASK: random number " + threshold : "BLEND: random number " + threshold;
+    return share + (verdict.covers ? " < " : " >= ") + (mode == AlphaMode::Mask ? "share of texels that pass " : "alpha ") + alpha +
            (verdict.covers ? ": covers" : ": lets through") + " (dimension coverage of surface " + std::to_string(verdict.random_surface) +
            ")";
 }
 
+std::string describe(const ExplainedTexel& texel) {
+    const std::string place =
+        texel.border ? "border"
+                     : "level " + std::to_string(texel.level) + ", texel " + std::to_string(texel.x) + "," + std::to_string(texel.y);
+    return std::string(name_of(texel.slot)) + ": " + place + ", value " + print_vector(glm::vec3(texel.value)) + "," +
+           print_number(texel.value.a);
+}
+
 std::string describe(const ExplainedLookup& lookup) {
+    if (lookup.drawn)
+        return "Map: " + std::string(name_of(lookup.slot)) + ", " + scenes::one_line(lookup.texture->name()) + " at " +
+               print_number(lookup.at.u) + "," + print_number(lookup.at.v) + ": texels below (" +
+               std::string(to_string(lookup.sampler.estimator)) + ")\n";
     const texunit::LookupTrace trace = trace_lookup(*lookup.texture, lookup.sampler, lookup.at);
     const LookupPlace place = place_of(lookup.at);
     std::vector<std::string> value;
@@ -70,6 +83,19 @@ std::string describe(const ExplainedReflection& reflection) {
     return text;
 }
 
+std::string describe(const ExplainedTap& tap) {
+    std::string text = "Tap: weight " + print_number(tap.weight) + (tap.alpha ? ", alpha " + print_number(*tap.alpha) : "") + "\n", details;
+    if (tap.numbers) {
+        const ExplainedNumbers& n = *tap.numbers;
+        details += "Random numbers: x " + print_number(n.x) + ", y " + print_number(n.y) + ", level " + print_number(n.level) + ", probe " +
+                   print_number(n.probe) + ", sign " + print_number(n.sign) + "\n";
+    }
+    for (const ExplainedTexel& texel : tap.texels) details += describe(texel) + "\n";
+    details += "Base colour: " + print_vector(tap.base_color) + "\nNormal: " + print_vector(tap.normal) + "\n";
+    if (tap.reflection) details += describe(*tap.reflection);
+    return text + indented(details + "Radiance: " + print_vector(tap.radiance) + "\n", 2);
+}
+
 std::string describe(const ExplainedSurface& surface) {
     std::string text = "Surface: " + describe(surface.triangle) + "\n", details;
     if (surface.verdict) details += describe(*surface.verdict, surface.triangle.material->alpha_mode) + "\n";
@@ -79,6 +105,13 @@ std::string describe(const ExplainedSurface& surface) {
     if (surface.vertex_color) {
         const glm::vec4& color = *surface.vertex_color;
         details += "Vertex colour: " + print_vector(glm::vec3(color)) + "," + print_number(color.a) + "\n";
+    }
+    for (const ExplainedTexel& texel : surface.averaged)
+        details += "Drawn and averaged, weight " + print_number(texel.weight) + ", " + describe(texel) + "\n";
+    if (!surface.taps.empty()) {
+        details += "Radiance: the sum of weight x radiance over these taps, of which those of positive weight count as far as they cover\n";
+        for (const ExplainedTap& tap : surface.taps) details += describe(tap);
+        return text + indented(details, 2);
     }
     details += "Base colour: " + print_vector(surface.base_color) + "\n";
     details += "Normal: " + print_vector(surface.normal) + ", of the triangle " + print_vector(surface.geometric_normal) + "\n";

@@ -23,6 +23,7 @@ struct ExplainedLookup {
     texunit::Texture* texture = nullptr;
     texunit::SamplerState sampler;
     texunit::LaneCoordinates at;
+    bool drawn = false;  ///< texels are drawn from its taps, or shaded one by one
 };
 
 struct ExplainedTriangle {
@@ -35,11 +36,12 @@ struct ExplainedTriangle {
     bool front = true;  ///< whether the front face is seen
 };
 
-/// Whether a MASK or BLEND surface covers a sample: alpha at least the cutoff, or above a random number.
+/// Whether a MASK or BLEND surface covers a sample: alpha at least the cutoff, or above a random number. Where raw texels decide, of MASK
+/// surfaces too it is the share of them that covers, held against a number.
 struct AlphaVerdict {
     float alpha = 0;
-    float threshold = 0;          ///< cutoff of a MASK, number of a BLEND surface
-    uint32_t random_surface = 0;  ///< of a BLEND surface: the surface in the number's address (texunit/random.h)
+    float threshold = 0;          ///< cutoff, or the number
+    uint32_t random_surface = 0;  ///< the surface in the number's address (texunit/random.h); 0: a cutoff
     bool covers = false;
 };
 
@@ -51,6 +53,20 @@ struct ExplainedCandidate {
     std::optional<ExplainedLookup> lookup;  ///< of the base colour
 };
 
+/// A texel drawn, or listed, for one map.
+struct ExplainedTexel {
+    shading::MapSlot slot{};
+    int level = 0, x = 0, y = 0;
+    bool border = false;
+    glm::vec4 value{0.0f};  ///< linear
+    float weight = 1;       ///< in the map's value, where it is averaged with others before shading
+};
+
+/// What a tap was drawn with; without numbers where all taps are listed.
+struct ExplainedNumbers {
+    float x = 0, y = 0, level = 0, probe = 0, sign = 0;
+};
+
 /// Of a lit material; an unlit one has a base colour and no more.
 struct ExplainedReflection {
     float metallic = 0, roughness = 0, occlusion = 1;
@@ -58,7 +74,19 @@ struct ExplainedReflection {
     std::vector<shading::LightTerm> light;  ///< adds up to the radiance
 };
 
-/// What is seen.
+/// One of several taps whose light is added up.
+struct ExplainedTap {
+    float weight = 1;
+    std::optional<float> alpha;  ///< where the texel decides what it covers
+    std::vector<ExplainedTexel> texels;
+    std::optional<ExplainedNumbers> numbers;
+    glm::vec3 base_color{0.0f}, normal{0.0f};
+    std::optional<ExplainedReflection> reflection;
+    glm::vec3 radiance{0.0f};
+};
+
+/// What is seen. Where raw texels are shaded `taps` tell what its surface is made of and its radiance: the sum of weight*radiance over taps
+/// of positive weight, divided by the part of those weights that covers, plus that over the others (shading/tap_sum-inl.h).
 struct ExplainedSurface {
     ExplainedTriangle triangle;
     std::optional<AlphaVerdict> verdict;  ///< of MASK and BLEND
@@ -69,6 +97,8 @@ struct ExplainedSurface {
     std::optional<glm::vec4> vertex_color;
     glm::vec3 base_color{0.0f};
     std::vector<ExplainedLookup> lookups;  ///< in the order of the maps
+    std::vector<ExplainedTexel> averaged;  ///< drawn for some of them, averaged before shading
+    std::vector<ExplainedTap> taps;
     std::optional<ExplainedReflection> reflection;
 };
 

@@ -26,7 +26,10 @@ ExplainedTriangle explain_triangle(const DrawState& draw, const raster::SetupTri
 }
 
 ExplainedLookup explain_lookup(shading::MapSlot slot, const MapState& map, const WaveCoordinates& at, int lane) {
-    return {slot, map.texture, map.sampler, {at.u[lane], at.v[lane], at.dudx[lane], at.dvdx[lane], at.dudy[lane], at.dvdy[lane]}};
+    return {.slot = slot,
+            .texture = map.texture,
+            .sampler = map.sampler,
+            .at = {at.u[lane], at.v[lane], at.dudx[lane], at.dvdx[lane], at.dudy[lane], at.dvdy[lane]}};
 }
 
 std::vector<ExplainedLookup> explain_lookups(const shading::ShadedFragments& fragments, int lane) {
@@ -35,8 +38,19 @@ std::vector<ExplainedLookup> explain_lookups(const shading::ShadedFragments& fra
         const MapState& map = fragments.draw->material->maps[size_t(slot)];
         if (!map.texture) continue;
         lookups.push_back(explain_lookup(shading::MapSlot(slot), map, fragments.fragment->coordinates[map.coordinates], lane));
+        const shading::TapPlans& plans = fragments.draw->material->plans;
+        lookups.back().drawn = plans.averaged.holds(slot) || plans.shaded.holds(slot);
     }
     return lookups;
+}
+
+ExplainedTexel explain_texel(shading::MapSlot slot, const MapState& map, const texunit::TexelDraw& draw, float weight, int lane) {
+    ExplainedTexel texel{
+        .slot = slot, .level = draw.level[lane], .x = draw.x[lane], .y = draw.y[lane], .border = false, .value = {}, .weight = weight};
+    texel.border = (draw.border >> lane & 1) != 0;
+    const std::array<float, 4> value = texel.border ? map.sampler.border : map.texture->texel(texel.level, 0, texel.x, texel.y);
+    texel.value = {value[0], value[1], value[2], value[3]};
+    return texel;
 }
 
 ExplainedReflection explain_reflection(const shading::Lighting& lighting, const shading::SurfaceWave& surface, int lane) {
@@ -74,7 +88,8 @@ int PixelWatcher::lane_of(const shading::WatchedBlock& block) const {
 AlphaVerdict PixelWatcher::verdict(const shading::JudgedFragments& fragments, int lane) const {
     const shading::Material& material = *fragments.draw->material->material;
     AlphaVerdict verdict{.alpha = (*fragments.alpha)[lane], .covers = (fragments.covered >> lane & 1) != 0};
-    if (material.alpha_mode == AlphaMode::Mask) {
+    // Raw texels decide by the share that covers, against a number.
+    if (material.alpha_mode == AlphaMode::Mask && !fragments.draw->material->plans.shaded.holds(shading::kBaseColor)) {
         verdict.threshold = material.alpha_cutoff;
     } else {
         verdict.random_surface = 1 + fragments.triangle->triangle_id;
@@ -100,9 +115,39 @@ void PixelWatcher::judged(const shading::JudgedFragments& fragments) {
     judged_.push_back({fragments.setup_index, std::move(candidate)});
 }
 
+void PixelWatcher::tapped(const shading::TappedTexels& tapped) {
+    const int lane = lane_of(tapped.block);
+    if (lane < 0) return;
+    const shading::MaterialState& material = *tapped.draw->material;
+    const float weight = tapped.tap->weight[lane] / float(material.plans.taps);
+    for (int slot = 0; slot < shading::kMapSlots; ++slot) {
+        if (!tapped.plan->holds(slot) || (tapped.slot && *tapped.slot != slot)) continue;
+        const int lookup = tapped.slot ? 0 : tapped.plan->lookup_of[size_t(slot)];
+        (tapped.averaged ? averaged_ : texels_)
+            .push_back(explain_texel(shading::MapSlot(slot), material.maps[size_t(slot)], tapped.tap->draw[lookup], weight, lane));
+    }
+    if (tapped.numbers)
+        numbers_ = ExplainedNumbers{tapped.numbers->x[lane], tapped.numbers->y[lane], tapped.numbers->level[lane],
+                                    tapped.numbers->probe[lane], tapped.numbers->sign[lane]};
+}
+
+void PixelWatcher::add_tap(const shading::ShadedFragments& fragments, int lane) {
+    ExplainedTap& tap = surface_->taps.emplace_back();
+    tap.weight = (*fragments.weight)[lane];
+    if (fragments.alpha) tap.alpha = (*fragments.alpha)[lane];
+    tap.texels = std::exchange(texels_, {});
+    tap.numbers = std::exchange(numbers_, std::nullopt);
+    tap.base_color = at_lane(fragments.surface->base_color, lane);
+    tap.normal = at_lane(fragments.surface->normal, lane);
+    tap.radiance = at_lane(*fragments.radiance, lane);
+    if (!fragments.draw->material->material->unlit) tap.reflection = explain_reflection(lighting_, *fragments.surface, lane);
+}
+
 void PixelWatcher::shaded(const shading::ShadedFragments& fragments) {
     const int lane = lane_of(fragments.block);
     if (lane < 0) return;
+    // Further taps of the surface.
+    if (surface_ && fragments.weight) return add_tap(fragments, lane);
     const uint32_t setup_index = fragments.setup_index[lane];
     const float b1 = fragments.weights->b1[lane], b2 = fragments.weights->b2[lane];
     const glm::vec3 position = at_lane(fragments.fragment->position, lane);
@@ -118,9 +163,12 @@ void PixelWatcher::shaded(const shading::ShadedFragments& fragments) {
         .vertex_color = vertex_color(fragments, lane),
         .base_color = at_lane(surface.base_color, lane),
         .lookups = explain_lookups(fragments, lane),
+        .averaged = std::exchange(averaged_, {}),
+        .taps = {},
         .reflection = {},
     };
     if (!surface_->triangle.material->unlit) surface_->reflection = explain_reflection(lighting_, surface, lane);
+    if (fragments.weight) add_tap(fragments, lane);
     const auto asked = std::ranges::find(judged_, setup_index, &Judged::setup_index);
     if (asked != judged_.end()) surface_->verdict = asked->candidate.verdict;
 }

@@ -206,24 +206,26 @@ class DemandedLookups {
         }
         taps_.begin(
             {&material, coordinates_, asking_.base_color, wave_.x, wave_.y, wave_.sample, inputs_.seed, layered ? surface : nullptr});
+        begun_ = 0;
         for (const TapPlan* plan : {&material.plans.averaged, &material.plans.shaded}) {
             if (plan->empty() || (plan == &material.plans.shaded && material.plans.enumerates)) continue;
             if (material.sharing == NumberSharing::PerMap) {
                 for (int n = 0; n < material.plans.taps; ++n)
-                    taps_.for_each_map(*plan, n, [&](MapSlot slot, const texunit::SharedTap& tap, int) { tell_draw(slot, tap, 0, n); });
+                    taps_.for_each_map(*plan, n, [&](MapSlot slot, const texunit::SharedTap& tap, int) { tell_draw(slot, tap, 0); });
                 continue;
             }
-            taps_.for_each(*plan, false, [&](const texunit::SharedTap& tap, int n) {
+            taps_.for_each(*plan, false, [&](const texunit::SharedTap& tap, int) {
                 for (int slot = 0; slot < kMapSlots; ++slot)
-                    if (plan->holds(slot)) tell_draw(slot, tap, plan->lookup_of[size_t(slot)], n);
+                    if (plan->holds(slot)) tell_draw(slot, tap, plan->lookup_of[size_t(slot)]);
             });
         }
     }
 
-    /// `number`: of the draw, of which the texel of negative weights comes second and to some lanes only.
-    void tell_draw(int slot, const texunit::SharedTap& tap, int number_in_tap, int number) {
+    /// A lookup begins with its first draw; texels of negative weights come later, and to some lanes only.
+    void tell_draw(int slot, const texunit::SharedTap& tap, int number_in_tap) {
         ListenedLookup lookup = lookup_of(taps_.material().maps[size_t(slot)], slot);
-        const bool first = number == 0 && tap.weight[std::countr_zero(tap.lanes)] > 0;
+        const bool first = (begun_ >> slot & 1) == 0;
+        begun_ |= 1u << slot;
         lookup.lanes &= tap.lanes;
         if (lookup.lanes != 0) listener_.drawn({lookup, &tap.draw[number_in_tap], first});
     }
@@ -259,6 +261,7 @@ class DemandedLookups {
     raster::BarycentricWave weights_{};
     texunit::WaveCoordinates coordinates_[kMapSlots]{};
     MaterialTaps taps_;
+    uint32_t begun_ = 0;  ///< one bit a map whose draws have begun
 };
 
 }  // namespace HWY_NAMESPACE

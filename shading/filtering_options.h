@@ -27,7 +27,7 @@ inline constexpr int kMostTaps = 1024;
 struct FilteringOptions {
     texunit::Estimator estimator = texunit::Estimator::All;
     std::optional<FilterOrder> order = std::nullopt;  ///< nullopt: before with All, after with one that draws
-    int taps = 1;                      ///< draws a lookup, 1..kMostTaps
+    int taps = 1;                                     ///< draws a lookup, 1..kMostTaps
     NumberSharing sharing = NumberSharing::Shared;
     /// Whether the draws of either sign, of kernels with negative lobes, use the same numbers.
     bool common_numbers = false;

@@ -6,8 +6,10 @@
 #include "shading/draw_state.h"
 #include "shading/fragment.h"
 #include "shading/surface.h"
+#include "texunit/shared_draw.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace rawtexel::shading {
 
@@ -30,6 +32,19 @@ struct JudgedFragments {
     const texunit::WaveCoordinates* base_color = nullptr;  ///< where its map was looked up, where it has one
 };
 
+/// Texels that were drawn, or listed, for maps of a material: before the surface that they make is shaded.
+struct TappedTexels {
+    WatchedBlock block;  ///< lanes: those that weigh the tap
+    const DrawState* draw = nullptr;
+    const TapPlan* plan = nullptr;            ///< whose maps; of one map alone where `slot` names it
+    std::optional<MapSlot> slot = {};         ///< drawn with numbers of its own
+    const texunit::SharedTap* tap = nullptr;  ///< weights before they are shared among draws
+    /// What it was drawn with, null where all taps are listed. Texels of negative weight have level and probe from the first.
+    const texunit::DrawNumbers* numbers = nullptr;
+    int number = 0;         ///< of the draw
+    bool averaged = false;  ///< with others before shading
+};
+
 /// Surfaces of one draw that are seen, each lane on its own triangle, shaded.
 struct ShadedFragments {
     WatchedBlock block;
@@ -40,6 +55,10 @@ struct ShadedFragments {
     const FragmentWave* fragment = nullptr;
     const texunit::WaveColor* maps = nullptr;  ///< kMapSlots, of those with a texture
     const SurfaceWave* surface = nullptr;      ///< of an unlit material the base colour and the normals alone
+    const WaveVector* radiance = nullptr;
+    /// Of one tap among several that are added up: shading/tap_sum-inl.h. Null: what is seen.
+    const WaveFloat* weight = nullptr;
+    const WaveFloat* alpha = nullptr;  ///< of the tap, where its texel decides what it covers
 };
 
 /// What a block's pixels got for one sample.
@@ -49,12 +68,13 @@ struct SampledPixels {
     const float* depth = nullptr;  ///< 32, of raster::TileVisibility
 };
 
-/// Of a sample of a tile it hears first of all that was judged, in the order in which it was drawn; then block by block of surfaces and,
-/// after them, of the pixels.
+/// Of a sample of a tile it hears first of all that was judged, in the order in which it was drawn; then block by block of texels drawn, of
+/// the surfaces that they make and, after them, of the pixels.
 class FragmentListener {
   public:
     virtual ~FragmentListener() = default;
     virtual void judged(const JudgedFragments& fragments) = 0;
+    virtual void tapped(const TappedTexels&) {}
     virtual void shaded(const ShadedFragments& fragments) = 0;
     virtual void sampled(const SampledPixels& pixels) = 0;
 };

@@ -13,6 +13,7 @@
 #include "texunit/shared_draw.h"
 
 #include <bit>
+#include <functional>
 
 HWY_BEFORE_NAMESPACE();
 namespace rawtexel::shading {
@@ -28,8 +29,20 @@ struct TappedFragments {
     const uint32_t* surface = nullptr;  ///< 32, of texunit::RandomAddress; null: 0
 };
 
+/// Hears of every tap; `slot`: of the map that has numbers of its own, -1 for those that share.
+struct HeardTap {
+    const TapPlan* plan;
+    int slot;
+    const texunit::SharedTap* tap;
+    const texunit::DrawNumbers* numbers;  ///< null: listed
+    int number;
+};
+using HearTap = std::function<void(const HeardTap&)>;
+
 class MaterialTaps {
   public:
+    HearTap hear;  ///< may be empty
+
     /// `fragments` and what it points to outlive the use of the taps.
     HWY_NOINLINE void begin(const TappedFragments& fragments) {
         fragments_ = fragments;
@@ -53,10 +66,20 @@ class MaterialTaps {
     template <class Use>
     HWY_INLINE void for_each(const TapPlan& plan, bool enumerates, const Use& use) {
         const texunit::LookupSet set = lookup_set(plan);
-        if (enumerates) return texunit::enumerate_shared(set, [&](const texunit::SharedTap& tap) { use(tap, 0); });
+        if (enumerates) {
+            return texunit::enumerate_shared(set, [&](const texunit::SharedTap& tap) {
+                if (hear) hear({&plan, -1, &tap, nullptr, 0});
+                use(tap, 0);
+            });
+        }
         for (int n = 0; n < fragments_.material->plans.taps; ++n) {
             find_numbers(n, 0);
-            texunit::draw_shared(set, positive_, negative_, [&](const texunit::SharedTap& tap) { use(tap, n); });
+            const texunit::DrawNumbers* numbers = &positive_;
+            texunit::draw_shared(set, positive_, negative_, [&](const texunit::SharedTap& tap) {
+                if (hear) hear({&plan, -1, &tap, numbers, n});
+                numbers = &negative_;
+                use(tap, n);
+            });
         }
     }
 
@@ -67,7 +90,12 @@ class MaterialTaps {
             if (!plan.holds(slot)) continue;
             find_numbers(n, 1 + uint32_t(slot));
             const texunit::LookupSet set = lookup_set(only(plan, MapSlot(slot)));
-            texunit::draw_shared(set, positive_, negative_, [&](const texunit::SharedTap& tap) { use(MapSlot(slot), tap, n); });
+            const texunit::DrawNumbers* numbers = &positive_;
+            texunit::draw_shared(set, positive_, negative_, [&](const texunit::SharedTap& tap) {
+                if (hear) hear({&plan, slot, &tap, numbers, n});
+                numbers = &negative_;
+                use(MapSlot(slot), tap, n);
+            });
         }
     }
 

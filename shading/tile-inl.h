@@ -158,7 +158,21 @@ class TileRenderer {
                                             .base_color = &coverage_.coordinates(*inputs_.draws[candidate.triangle->draw].material)});
     }
 
-    void tell_shaded(const DrawState& draw, WaveMask pass) {
+    void tell_tapped(const DrawState& draw, WaveMask pass, const HeardTap& heard) {
+        TappedTexels tapped{.block = {wave_.x, wave_.y, wave_.sample, pass & heard.tap->lanes},
+                            .draw = &draw,
+                            .plan = heard.plan,
+                            .slot = {},
+                            .tap = heard.tap,
+                            .numbers = heard.numbers,
+                            .number = heard.number,
+                            .averaged = heard.plan == &draw.material->plans.averaged};
+        if (heard.slot >= 0) tapped.slot = MapSlot(heard.slot);
+        scratch_.fragment_listener->tapped(tapped);
+    }
+
+    /// `weight` and `alpha`: of one tap among several.
+    void tell_shaded(const DrawState& draw, WaveMask pass, const WaveFloat* weight, const WaveFloat* alpha) {
         scratch_.fragment_listener->shaded({.block = {wave_.x, wave_.y, wave_.sample, pass},
                                             .draw = &draw,
                                             .frame = &frame_,
@@ -166,7 +180,10 @@ class TileRenderer {
                                             .weights = &weights_,
                                             .fragment = &fragment_,
                                             .maps = maps_.slot,
-                                            .surface = &surface_});
+                                            .surface = &surface_,
+                                            .radiance = &radiance_,
+                                            .weight = weight,
+                                            .alpha = alpha});
     }
 
     /// Of the wave at pixel (x, y) of the tile.
@@ -274,6 +291,7 @@ class TileRenderer {
             if (wants_lod) find_lod(material.maps[kBaseColor], pass, lod);
         } else {
             shade_maps(draw, pass);
+            if (watched()) tell_shaded(draw, pass, nullptr, nullptr);
         }
         store_vector(radiance_, pass, TilePlanes::kRadiance, wave_.index);
         if (inputs_.planes.hits >= 0) store_layers(draw, pass);
@@ -291,7 +309,6 @@ class TileRenderer {
             turn_to_viewer();
             shade_lanes(*inputs_.lighting, surface_, lanes, radiance_);
         }
-        if (watched()) tell_shaded(draw, lanes);
     }
 
     /// Draws of maps that are averaged before shading; raw texels of the others, shaded and then added up.
@@ -304,8 +321,13 @@ class TileRenderer {
             surface[lane] = 1 + frame_.triangle(wave_.setup_index[lane]).triangle_id;
         }
         taps_.begin({&material, fragment_.coordinates, pass, wave_.x, wave_.y, wave_.sample, inputs_.seed, layered ? surface : nullptr});
+        if (watched()) taps_.hear = [&](const HeardTap& heard) { tell_tapped(draw, pass, heard); };
         if (!material.plans.averaged.empty()) average_taps(taps_, material.plans.averaged, maps_.slot);
-        if (material.plans.shaded.empty()) return shade_maps(draw, pass);
+        if (material.plans.shaded.empty()) {
+            shade_maps(draw, pass);
+            if (watched()) tell_shaded(draw, pass, nullptr, nullptr);
+            return;
+        }
 
         tap_sum_.clear();
         const bool covers = layered && material.plans.shaded.holds(kBaseColor);
@@ -314,6 +336,7 @@ class TileRenderer {
         for_each_shaded_tap(taps_, material.plans.shaded, maps_.slot, [&](const WaveFloat& weight, WaveMask lanes) HWY_ATTR {
             shade_maps(draw, lanes);
             if (covers) find_alpha(*material.material, &maps_.slot[kBaseColor].channel[3], vertex, alpha);
+            if (watched()) tell_shaded(draw, lanes, &weight, covers ? &alpha : nullptr);
             tap_sum_.add(*material.material, {&radiance_, &surface_, &weight, covers ? &alpha : nullptr, lanes});
         });
         tap_sum_.radiance(radiance_);

@@ -3,8 +3,10 @@
 #include "cli/counters.h"
 #include "cli/option_values.h"
 #include "scenes/builtin.h"
+#include "texunit/estimator.h"
 #include "texunit/format.h"
 #include "texunit/kernel.h"
+#include "texunit/noise.h"
 
 #include <nlohmann/json.hpp>
 
@@ -36,10 +38,12 @@ Entries filter_entries() {
 }
 
 Entries entries_for(const std::string& subject) {
-    switch (parse_word("list", subject, {"scenes", "filters", "formats", "counters"})) {
+    switch (parse_word("list", subject, {"scenes", "filters", "estimators", "noises", "formats", "counters"})) {
         case 0: return entries_of(scenes::builtin_scenes());
         case 1: return filter_entries();
-        case 2: return entries_of(texunit::all_formats());
+        case 2: return entries_of(texunit::all_estimators());
+        case 3: return entries_of(texunit::all_noises());
+        case 4: return entries_of(texunit::all_formats());
         default: return entries_of(all_counters());
     }
 }
@@ -64,11 +68,13 @@ std::string print_lines(const Entries& entries) {
 class ListCommand : public Command {
   public:
     std::string_view name() const override { return "list"; }
-    std::string_view usage() const override { return "list scenes|filters|formats|counters [--json]"; }
-    std::string_view summary() const override { return "Lists built-in scenes, texture filters, texel formats or counters, one a line."; }
+    std::string_view usage() const override { return "list scenes|filters|estimators|noises|formats|counters [--json]"; }
+    std::string_view summary() const override {
+        return "Lists built-in scenes, texture filters, estimators, noises, texel formats or counters, one a line.";
+    }
 
     void declare(CommandLine& line) override {
-        line.arguments("SUBJECT", "scenes, filters, formats or counters", 1, 1, words_);
+        line.arguments("SUBJECT", "scenes, filters, estimators, noises, formats or counters", 1, 1, words_);
         line.flag("--json", "an array of objects with \"name\" and \"description\"", json_);
     }
 

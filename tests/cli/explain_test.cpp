@@ -107,6 +107,10 @@ TEST_F(ExplainTest, SumsToTheRenderedPixelBitForBit) {
         {"--spp", "5", "--ewa", "--pixel-filter", "tent", "--shadows", "on"},
         {"--spp", "4", "--simd", "scalar", "--filter", "lanczos3", "--mip", "nearest"},
         {"--spp", "2", "--crop", "8,6,25,20", "--tile-size", "32", "--peer-shading"},
+        {"--spp", "6", "--estimator", "reservoir", "--filter", "catmull-rom"},
+        {"--spp", "3", "--order", "after"},
+        {"--spp", "3", "--estimator", "jitter", "--taps", "4", "--random", "per-map", "--noise", "stbn"},
+        {"--spp", "3", "--estimator", "reservoir", "--taps", "3", "--order", "before"},
     };
     int surfaces = 0, backgrounds = 0;
     for (const Words& way : ways) {
@@ -128,6 +132,43 @@ TEST_F(ExplainTest, SumsToTheRenderedPixelBitForBit) {
     }
     EXPECT_GT(surfaces, 50);
     EXPECT_GT(backgrounds, 10);
+}
+
+/// The radiance of a sample from its taps: those of positive weight as far as they cover, then the others.
+Radiance sum_of_taps(const Json& surface) {
+    const bool mask = surface.value("alpha_mode", "") == "MASK";
+    Radiance positive{}, negative{};
+    float weights = 0, covered = 0;
+    for (const Json& tap : surface["taps"]) {
+        const float weight = tap["weight"].get<float>(), above = std::max(weight, 0.0f), below = std::min(weight, 0.0f);
+        float share = above;
+        if (tap.contains("alpha"))
+            share = above * (mask ? float(tap["alpha"].get<float>() >= 0.5f) : std::clamp(tap["alpha"].get<float>(), 0.0f, 1.0f));
+        const Radiance radiance = radiance_of(tap["radiance"]);
+        weights += above, covered += share;
+        for (size_t c = 0; c < 3; ++c) positive[c] += share * radiance[c], negative[c] += below * radiance[c];
+    }
+    Radiance sum;
+    for (size_t c = 0; c < 3; ++c) sum[c] = positive[c] * (covered > 0 ? weights / covered : 1.0f) + negative[c];
+    return sum;
+}
+
+TEST_F(ExplainTest, TapsAddUpToTheSample) {
+    int taps = 0;
+    for (const Words& way : {Words{"--estimator", "reservoir", "--filter", "lanczos3", "--spp", "8"},
+                             {"--order", "after", "--spp", "2"},
+                             {"--estimator", "jitter", "--taps", "3", "--spp", "4"}}) {
+        for (const auto& [x, y] : {std::pair{20, 14}, {16, 18}, {24, 12}}) {
+            for (const Json& sample : explain(scene_, x, y, way)["samples"]) {
+                if (sample["surface"].is_null()) continue;
+                // A surface without maps is shaded once.
+                if (!sample["surface"].contains("taps")) continue;
+                taps += int(sample["surface"]["taps"].size());
+                EXPECT_EQ(sum_of_taps(sample["surface"]), radiance_of(sample["radiance"])) << sample["surface"].dump(1);
+            }
+        }
+    }
+    EXPECT_GT(taps, 60);
 }
 
 TEST_F(ExplainTest, AddsUpAtEveryStep) {

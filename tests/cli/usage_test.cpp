@@ -46,7 +46,7 @@ TEST(Usage, WrongWordsAreExitCode2WithTheNearestSpelling) {
         {{"compare", "a.png", "b.png", "-o", "d.xyz"}, "-o"},
         {{"list"}, "missing argument"},
         {{"list", "scene"}, "the nearest is 'scenes'"},
-        {{"list", "noises"}, "unknown value 'noises'"},
+        {{"list", "suites"}, "unknown value 'suites'"},
         {{"export", "plane", "-o", "x.gltf"}, ".glb"},
         {{"export", "plane"}, "-o FILE.glb is missing"},
         {{}, "no command given"},

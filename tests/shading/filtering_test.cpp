@@ -227,7 +227,7 @@ TEST_F(FilteringTest, MaskAfterShadingCoversTheShareOfTexelsThatPass) {
     add_quad(front, 0.5f);
     options_.background = glm::vec3(0);
     options_.filter = Kernel::BSpline;
-    options_.spp = 4096;
+    options_.spp = 1024;
     double sums[3] = {};
     int k = 0;
     for (const FilteringOptions& filtering : {drawn(Estimator::Reservoir), listed(), FilteringOptions{}}) {
@@ -235,8 +235,8 @@ TEST_F(FilteringTest, MaskAfterShadingCoversTheShareOfTexelsThatPass) {
         sums[k++] = std::accumulate(image.values.begin(), image.values.end(), 0.0) / double(image.values.size());
     }
     // Half of the texels pass; the mean alpha 0.6 does almost everywhere.
-    EXPECT_NEAR(sums[0], 0.5, 0.005);
-    EXPECT_NEAR(sums[1], 0.5, 0.005);
+    EXPECT_NEAR(sums[0], 0.5, 0.01);
+    EXPECT_NEAR(sums[1], 0.5, 0.01);
     EXPECT_GT(sums[2], 0.9);
 }
 
