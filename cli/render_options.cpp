@@ -17,6 +17,7 @@ namespace {
 
 using shading::Aov;
 
+constexpr NumberRange kReferenceError{1e-6f, 1e6f};
 constexpr NumberRange kFov{kMinFov, kMaxFov}, kAngle{-kMaxAngle, kMaxAngle}, kZoom{kMinZoom, kMaxZoom}, kAmbient{0.0f, kMaxAmbient},
     kRadiance{0.0f, kMaxRadiance}, kLux{0.0f, kMaxLux}, kExposure{-kMaxExposure, kMaxExposure}, kLength{-kMaxLength, kMaxLength};
 
@@ -96,6 +97,11 @@ void declare_sample_options(CommandLine& line, SampleOptions& samples) {
                     using shading::PixelJitter;
                     samples.pixel_jitter = parse_choice("--pixel-jitter", text, {PixelJitter::Frame, PixelJitter::Pixel});
                 });
+    line.option("--reference", "ERROR",
+                "the truth instead: level 0, every texel shaded and then filtered, an offset per sample and pixel, samples until the "
+                "image's standard error is below ERROR, " +
+                    print(kReferenceError),
+                [&](const std::string& text) { samples.reference = parse_number("--reference", text, kReferenceError); });
     line.option("--seed", "S", "of all random numbers, 0 to " + std::to_string(UINT32_MAX) + " (default 0)",
                 [&](const std::string& text) { samples.seed = uint32_t(parse_integer("--seed", text, 0, UINT32_MAX)); });
 }
@@ -144,6 +150,25 @@ void check_crop(const shading::Crop& crop, const ImageSize& size) {
 void check_view(const ViewOptions& view) {
     if (view.camera && view.orbit) throw UsageError("--camera and --orbit exclude each other");
     if (view.orbit && view.eye) throw UsageError("--orbit and --eye exclude each other");
+}
+
+// The truth leaves no choice of levels, order, estimator and samples: options that make one are refused, and what it chooses is put down.
+void preset_reference(RenderRequest& request) {
+    LookupOptions& lookup = request.lookup;
+    const std::pair<bool, const char*> taken[] = {
+        {lookup.mip.has_value(), "--mip"},
+        {!(lookup.footprint == shading::FootprintOptions{}), "--aniso, --ewa, --lod-*, --hybrid-bias, --derivatives and --footprint"},
+        {lookup.filtering.draws() || lookup.filtering.order, "--estimator and --order"},
+        {lookup.precision != texunit::Precision::Exact, "--precision"},
+        {request.samples.spp != 1, "--spp"},
+        {request.sequence.is_sequence(), "--frames and --accumulate"},
+    };
+    for (const auto& [given, options] : taken)
+        if (given) throw UsageError("--reference: the truth leaves no choice to " + std::string(options));
+    lookup.mip = texunit::MipMode::None;
+    lookup.footprint.probes = 1;
+    lookup.filtering.order = shading::FilterOrder::After;
+    request.samples.pixel_jitter = shading::PixelJitter::Pixel;
 }
 
 // What a plain viewer with one light and no tone map draws. The light itself depends on the scene: see make_lighting.
@@ -254,6 +279,7 @@ void settle(RenderRequest& request) {
     check_filtering(request.lookup.filtering, request.lookup.filter);
     check_hybrid_bias(request.lookup.footprint, request.lookup.filtering);
     if (request.light.peer_shading) preset_peer_shading(request);
+    if (request.samples.reference) preset_reference(request);
 }
 
 }  // namespace rawtexel::cli

@@ -28,6 +28,7 @@ struct RunRecord {
     std::vector<texunit::TextureWork> work;  ///< per scene texture, after the first frame
     RunTimes times;
     std::optional<SequenceRecord> sequence;  ///< of a sequence
+    std::optional<double> standard_error;    ///< of the truth
 };
 
 /// What was done in every texture of the scene so far.

@@ -86,6 +86,7 @@ class ExplainCommand : public Command {
 
 void ExplainCommand::settle_words(const Invocation& invocation) {
     if (!pixel_) throw UsageError("--pixel X,Y is missing (usage: rawtexel " + std::string(usage()) + ")");
+    if (request_.samples.reference) throw UsageError("--reference: explain tells of samples, of which --spp says how many");
     settle(request_);
     check_pixel(*pixel_, request_);
     if (sample_) request_.samples.spp = std::max(request_.samples.spp, *sample_ + 1);

@@ -18,6 +18,7 @@
 #include "cli/view.h"
 #include "scenes/load.h"
 #include "scenes/output_file.h"
+#include "shading/reference.h"
 #include "shading/render.h"
 
 #include <optional>
@@ -98,6 +99,9 @@ class RenderCommand : public Command {
     shading::RenderResult render_frames(const shading::Scene& scene, const shading::Lighting& lighting,
                                         const shading::RenderOptions& options, shading::Executor& executor, ProgressReport& progress,
                                         RunRecord& record) const;
+    shading::RenderResult render_truth(const shading::Scene& scene, const shading::Lighting& lighting,
+                                       const shading::RenderOptions& options, shading::Executor& executor, ProgressReport& progress,
+                                       RunRecord& record) const;
     shading::RenderResult render_sequence(const shading::Scene& scene, const View& view, const shading::Lighting& lighting,
                                           const shading::RenderOptions& options, shading::Executor& executor, ProgressReport& progress,
                                           RunRecord& record) const;
@@ -219,6 +223,21 @@ shading::RenderResult RenderCommand::render_frames(const shading::Scene& scene, 
     return first;
 }
 
+shading::RenderResult RenderCommand::render_truth(const shading::Scene& scene, const shading::Lighting& lighting,
+                                                  const shading::RenderOptions& options, shading::Executor& executor,
+                                                  ProgressReport& progress, RunRecord& record) const {
+    progress.begin("rendering the truth");
+    const shading::ReferenceGoal goal{.error = double(*request_.samples.reference), .most_samples = kMaxSamples};
+    shading::Reference reference =
+        render_reference(scene, lighting, options, goal, executor, [&](double share) { progress.update(share); });
+    progress.finish();
+    record.work = texture_work(scene);
+    record.times.frame_s.push_back(reference.result.times.frame_s);
+    record.standard_error = reference.standard_error;
+    record.request.samples.spp = reference.samples;
+    return std::move(reference.result);
+}
+
 shading::RenderResult RenderCommand::render_sequence(const shading::Scene& scene, const View& view, const shading::Lighting& lighting,
                                                      const shading::RenderOptions& options, shading::Executor& executor,
                                                      ProgressReport& progress, RunRecord& record) const {
@@ -277,8 +296,15 @@ int RenderCommand::run(const Invocation& invocation) {
     options.fetches.pixel_layers = !counts_.empty();
     std::optional<TraceFile> trace;
     if (!trace_.empty()) options.fetches.trace = &trace.emplace(trace_).writer();
-    record.result = request_.sequence.is_sequence() ? render_sequence(scene, view, lighting, options, *executor, progress, record)
-                                                    : render_frames(scene, lighting, options, *executor, progress, record);
+    if (request_.samples.reference)
+        record.result = render_truth(scene, lighting, options, *executor, progress, record);
+    else if (request_.sequence.is_sequence())
+        record.result = render_sequence(scene, view, lighting, options, *executor, progress, record);
+    else
+        record.result = render_frames(scene, lighting, options, *executor, progress, record);
+    if (record.standard_error && *record.standard_error >= double(*request_.samples.reference))
+        warn(invocation, "--reference: " + print_number(float(*record.standard_error)) + " is the error reached after " +
+                             std::to_string(record.request.samples.spp) + " samples, the most there are");
 
     const double write_start = ProgressReport::steady_seconds();
     const scenes::Metadata metadata = image_metadata(record, !scenes::is_float_format(output_));
@@ -292,6 +318,9 @@ int RenderCommand::run(const Invocation& invocation) {
 
     invocation.out << "Camera: " << view.options << '\n';
     if (record.sequence) print_sequence(invocation.out, record);
+    if (record.standard_error)
+        invocation.out << "Standard error: " << print_number(float(*record.standard_error)) << " after " << record.request.samples.spp
+                       << " samples per pixel\n";
     if (record.result.fetches) print_fetches(invocation.out, record.result);
     invocation.out << "Saved: " << output_ << '\n';
     return kDone;

@@ -159,7 +159,8 @@ TEST_F(ExplainTest, TapsAddUpToTheSample) {
                              {"--order", "after", "--spp", "2"},
                              {"--estimator", "jitter", "--taps", "3", "--spp", "4"}}) {
         for (const auto& [x, y] : {std::pair{20, 14}, {16, 18}, {24, 12}}) {
-            for (const Json& sample : explain(scene_, x, y, way)["samples"]) {
+            const Json json = explain(scene_, x, y, way);
+            for (const Json& sample : json["samples"]) {
                 if (sample["surface"].is_null()) continue;
                 // A surface without maps is shaded once.
                 if (!sample["surface"].contains("taps")) continue;
