@@ -1,5 +1,6 @@
 #include "cli/camera_path.h"
 
+#include "cli/json_text.h"
 #include "cli/limits.h"
 #include "cli/option_values.h"
 #include "scenes/image_io.h"
@@ -18,9 +19,6 @@ namespace {
 
 using Json = nlohmann::json;
 using scenes::InputError;
-
-constexpr size_t kMaxPathBytes = size_t{16} << 20;
-constexpr int kMaxNesting = 8;
 
 /// One element of the file's array.
 struct KeyReader {
@@ -84,16 +82,6 @@ shading::CameraKey read_key(const KeyReader& reader, float fov) {
 }
 
 /// Brackets within brackets at most, counted in strings too: keys need three.
-bool is_nested_too_deeply(std::string_view text) {
-    int depth = 0;
-    for (const char c : text) {
-        if (c == '[' || c == '{') ++depth;
-        if (c == ']' || c == '}') --depth;
-        if (depth > kMaxNesting) return true;
-    }
-    return false;
-}
-
 std::vector<shading::CameraKey> read_camera_keys(const std::string& path, float fov) {
     const std::vector<std::byte> bytes = scenes::read_file(path);
     return parse_camera_keys(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, fov);
@@ -123,10 +111,7 @@ shading::CameraPath gltf_path(const shading::Scene& scene, const ViewOptions& op
 }  // namespace
 
 std::vector<shading::CameraKey> parse_camera_keys(const std::string& path, std::string_view text, float fov) {
-    if (text.size() > kMaxPathBytes) throw InputError(path + ": has " + std::to_string(text.size()) + " bytes (allowed: 16 MiB)");
-    if (is_nested_too_deeply(text)) throw InputError(path + ": JSON nested deeper than " + std::to_string(kMaxNesting) + " levels");
-    const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
-    if (json.is_discarded()) throw InputError(path + ": not valid JSON");
+    const Json json = parse_json(path, text);
     if (!json.is_array() || json.empty()) throw InputError(path + ": is no array of key frames (at least one is needed)");
     std::vector<shading::CameraKey> keys;
     for (size_t i = 0; i < json.size(); ++i) keys.push_back(read_key({path, json[i], i}, fov));

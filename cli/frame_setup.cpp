@@ -1,5 +1,6 @@
 #include "cli/frame_setup.h"
 
+#include "cli/policy_file.h"
 #include "cli/word_list.h"
 
 namespace rawtexel::cli {
@@ -20,6 +21,12 @@ scenes::LoadOptions load_options(const RenderRequest& request, const Invocation&
         warn(invocation, what);
     };
     return options;
+}
+
+shading::Scene load_scene(const std::string& name, const RenderRequest& request, const scenes::LoadOptions& options) {
+    shading::Scene scene = scenes::load(name, options);
+    if (!request.policy.empty()) apply_policy_file(request.policy, scene);
+    return scene;
 }
 
 shading::RenderOptions frame_options(const RenderRequest& request, const shading::Camera& camera) {

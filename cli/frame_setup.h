@@ -15,6 +15,9 @@ void choose_instruction_set(texunit::Simd simd);
 /// Warnings go to the invocation, past the progress. Both outlive the options.
 scenes::LoadOptions load_options(const RenderRequest& request, const Invocation& invocation, ProgressReport& progress);
 
+/// The scene of a request: loaded, its policies put onto it. `name`: a file or a built-in scene.
+shading::Scene load_scene(const std::string& name, const RenderRequest& request, const scenes::LoadOptions& options);
+
 /// Everything of a frame that the shared options say.
 shading::RenderOptions frame_options(const RenderRequest& request, const shading::Camera& camera);
 

@@ -267,6 +267,8 @@ void declare_render_options(CommandLine& line, RenderRequest& request) {
     declare_footprint_options(line, request.lookup.footprint);
     line.group("Filtering before or after shading");
     declare_filtering_options(line, request.lookup.filtering);
+    line.option("--policy", "FILE.json", "order, estimator, filter and mip of single materials and textures (docs/filters.md)",
+                [&](const std::string& text) { request.policy = text; });
     declare_sample_options(line, request.samples);
     declare_tone_options(line, request.tone);
     declare_fetch_options(line, request.fetches);

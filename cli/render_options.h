@@ -94,6 +94,7 @@ struct RenderRequest {
     ViewOptions view;
     LightOptions light;
     LookupOptions lookup;
+    std::string policy;  ///< a file of policies; empty: none
     SampleOptions samples;
     SequenceOptions sequence;  ///< of `render` alone
     ToneOptions tone;

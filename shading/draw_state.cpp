@@ -54,16 +54,40 @@ void add_to_plan(const MaterialState& state, int slot, TapPlan& plan) {
     plan.first[size_t(plan.lookups++)] = MapSlot(slot);
 }
 
-void make_plans(const FilteringOptions& filtering, MaterialState& state) {
-    state.plans.taps = filtering.taps;
-    state.plans.common_numbers = filtering.common_numbers;
-    state.plans.noise = filtering.noise;
-    state.sharing = filtering.sharing;
-    const bool after = filtering.effective_order() == FilterOrder::After;
-    state.plans.enumerates = after && !filtering.draws();
-    if (!after && !filtering.draws()) return;
-    for (int slot = 0; slot < kMapSlots; ++slot)
-        if (state.maps[size_t(slot)].texture) add_to_plan(state, slot, after ? state.plans.shaded : state.plans.averaged);
+/// What is asked of a material's map, and what its policies make of it.
+struct AskedLookup {
+    FilteringOptions filtering;
+    LookupPolicy policy;
+};
+AskedLookup asked_lookup(const Scene& scene, const Material& material, int slot, const LookupOverrides& overrides) {
+    const TextureMap& map = material.maps[size_t(slot)];
+    const LookupPolicy policy = combine(material.policy, scene.textures[size_t(map.texture)].policy);
+    return {apply(policy, overrides.filtering), policy};
+}
+
+void make_plans(const Scene& scene, const LookupOverrides& overrides, MaterialState& state) {
+    TapPlans& plans = state.plans;
+    plans.taps = overrides.filtering.taps;
+    plans.common_numbers = overrides.filtering.common_numbers;
+    plans.noise = overrides.filtering.noise;
+    state.sharing = overrides.filtering.sharing;
+    for (int slot = 0; slot < kMapSlots; ++slot) {
+        if (!state.maps[size_t(slot)].texture) continue;
+        const FilteringOptions filtering = asked_lookup(scene, *state.material, slot, overrides).filtering;
+        const bool after = filtering.effective_order() == FilterOrder::After;
+        if (after) add_to_plan(state, slot, plans.shaded);
+        if (!after && filtering.draws()) add_to_plan(state, slot, plans.averaged);
+        plans.enumerates |= after && !filtering.draws();
+    }
+}
+
+/// Whether some of the maps that are shaded tap by tap draw, and others weigh all.
+bool disagrees(const MaterialState& state) {
+    for (int slot = 0; slot < kMapSlots; ++slot) {
+        const MapState& map = state.maps[size_t(slot)];
+        if (state.plans.enumerates && state.plans.shaded.holds(slot) && map.sampler.estimator != texunit::Estimator::All) return true;
+    }
+    return false;
 }
 
 MaterialState make_material_state(const Scene& scene, uint32_t index, const LookupOverrides& overrides) {
@@ -77,10 +101,14 @@ MaterialState make_material_state(const Scene& scene, uint32_t index, const Look
         lookup.texture = scene.textures[size_t(map.texture)].texture.get();
         lookup.texture_index = uint32_t(map.texture);
         lookup.sampler = map.sampler;
+        const AskedLookup asked = asked_lookup(scene, *state.material, slot, overrides);
         override_sampler(overrides, lookup.sampler);
+        lookup.sampler.estimator = asked.filtering.estimator;
+        if (asked.policy.filter) lookup.sampler.magnify = lookup.sampler.minify = *asked.policy.filter;
+        if (asked.policy.mip) lookup.sampler.mip = *asked.policy.mip;
         lookup.coordinates = coordinates_of(state, map);
     }
-    make_plans(overrides.filtering, state);
+    make_plans(scene, overrides, state);
     return state;
 }
 
@@ -116,19 +144,19 @@ void override_sampler(const LookupOverrides& overrides, texunit::SamplerState& s
 }
 
 std::string refusal(const Scene& scene, const LookupOverrides& overrides) {
-    const FilteringOptions& filtering = overrides.filtering;
     const DrawStates states = make_draw_states(scene, overrides);
     for (const MaterialState& state : states.materials) {
         const std::string material = "material '" + state.material->name + "': ";
         for (const MapState& map : state.maps) {
             if (!map.texture) continue;
             for (const texunit::Kernel& kernel : {map.sampler.magnify, map.sampler.minify}) {
-                const std::string_view reason = texunit::refusal(filtering.estimator, kernel);
+                const std::string_view reason = texunit::refusal(map.sampler.estimator, kernel);
                 if (!reason.empty())
-                    return material + std::string(to_string(filtering.estimator)) + " cannot draw " + to_string(kernel) + ", " +
+                    return material + std::string(to_string(map.sampler.estimator)) + " cannot draw " + to_string(kernel) + ", " +
                            std::string(reason);
             }
         }
+        if (disagrees(state)) return material + "of the maps that are shaded tap by tap some weigh every tap and others draw (a policy)";
         if (state.plans.enumerates && state.plans.shaded.lookups > 1 && overrides.footprint.ellipse > 0)
             return material +
                    "its maps differ in extent or coordinates, and ellipses cannot be listed together; --reference converges to it";

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "shading/camera_animation.h"
+#include "shading/lookup_policy.h"
 #include "texunit/containers.h"
 #include "texunit/sampler.h"
 #include "texunit/texture.h"
@@ -63,6 +64,7 @@ struct Material {
     bool double_sided = false;
     bool unlit = false;  ///< KHR_materials_unlit: base colour is the radiance
     std::array<TextureMap, kMapSlots> maps;
+    LookupPolicy policy = {};  ///< of all its maps
 };
 
 /// KHR_lights_punctual. Directional: `intensity` in lux; point and spot: candela.
@@ -96,6 +98,7 @@ struct SceneTexture {
     bool srgb = false;      ///< read as sRGB-encoded colour
     /// The encoded image; null when the texture was generated and must be encoded anew.
     std::shared_ptr<const texunit::ByteSource> encoded;
+    LookupPolicy policy = {};  ///< of all lookups of it, over that of their materials
 };
 
 /// What a scene asks of its surroundings when the command line says nothing.

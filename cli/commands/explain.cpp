@@ -147,7 +147,7 @@ int ExplainCommand::run(const Invocation& invocation) {
 
     ProgressReport progress(invocation.err, request_.machine.progress, invocation.err_is_terminal);
     progress.begin("loading");
-    const shading::Scene scene = scenes::load(words_[0], load_options(request_, invocation, progress));
+    const shading::Scene scene = load_scene(words_[0], request_, load_options(request_, invocation, progress));
     const ImageSize size = request_.image_size();
     const View view = choose_view(scene, request_.view, float(size.width) / float(size.height));
     progress.begin("preparing light");

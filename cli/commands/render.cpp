@@ -198,7 +198,7 @@ shading::Scene RenderCommand::load_scene(const Invocation& invocation, ProgressR
     scenes::LoadOptions options = load_options(request_, invocation, progress);
     options.camera_animations = request_.sequence.path && request_.sequence.path->kind == CameraPathKind::Gltf;
     options.opened = [&](const std::string& path) { opened.push_back(path); };
-    shading::Scene scene = scenes::load(scene_, options);
+    shading::Scene scene = cli::load_scene(scene_, request_, options);
     check_all_apart(opened);
     return scene;
 }
