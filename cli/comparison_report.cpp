@@ -28,7 +28,7 @@ std::string csv_field(const std::string& text) {
 std::string print_table(std::span<const Comparison> comparisons) {
     size_t path_width = 5;
     for (const Comparison& comparison : comparisons) path_width = std::max(path_width, comparison.path.size());
-    const auto padded = [](std::string text, size_t width) { return std::string(width - std::min(width, text.size()), ' ') + text; };
+    const auto padded = [](const std::string& text, size_t width) { return std::string(width - std::min(width, text.size()), ' ') + text; };
     std::string text = "image" + std::string(path_width - 5, ' ');
     for (const char* column : kColumns) text += padded(column, 14);
     text += "\n";

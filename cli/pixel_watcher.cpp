@@ -112,7 +112,7 @@ void PixelWatcher::judged(const shading::JudgedFragments& fragments) {
                                  .lookup = {}};
     const MapState& map = fragments.draw->material->maps[shading::kBaseColor];
     if (map.texture) candidate.lookup = explain_lookup(shading::kBaseColor, map, *fragments.base_color, lane);
-    judged_.push_back({fragments.setup_index, std::move(candidate)});
+    judged_.push_back({fragments.setup_index, candidate});
 }
 
 void PixelWatcher::tapped(const shading::TappedTexels& tapped) {
@@ -175,11 +175,11 @@ void PixelWatcher::shaded(const shading::ShadedFragments& fragments) {
 
 std::vector<ExplainedCandidate> PixelWatcher::take_let_through(float depth) {
     std::vector<ExplainedCandidate> let_through;
-    for (Judged& judged : std::exchange(judged_, {})) {
+    for (const Judged& judged : std::exchange(judged_, {})) {
         const ExplainedCandidate& candidate = judged.candidate;
         const bool tied_before = candidate.depth == depth && surface_ && candidate.triangle.id < surface_->triangle.id;
         const bool before = !surface_ || candidate.depth > depth || tied_before;
-        if (before && !candidate.verdict.covers) let_through.push_back(std::move(judged.candidate));
+        if (before && !candidate.verdict.covers) let_through.push_back(candidate);
     }
     // As raster::tile_visibility orders them.
     std::ranges::stable_sort(let_through, [](const ExplainedCandidate& a, const ExplainedCandidate& b) {

@@ -39,7 +39,7 @@ std::string one_line(std::string_view text) {
 
 std::string shortened(std::string_view text) {
     constexpr size_t kLongest = 40;
-    const std::string line = one_line(text);
+    std::string line = one_line(text);
     if (line.size() <= kLongest) return line;
     size_t end = 0;
     while (end < kLongest) end += utf8_character(line, end);

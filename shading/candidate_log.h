@@ -41,7 +41,8 @@ class CandidateLog {
     /// Calls use(const LoggedCandidate&) for the candidates of a wave in the order in which they were drawn.
     template <class Use>
     void for_each_in_wave(uint32_t wave, const Use& use) const {
-        for (const Place& place : std::ranges::equal_range(order_, wave, {}, &Place::wave)) use(entries_[place.entry]);
+        const auto found = std::ranges::equal_range(order_, wave, {}, &Place::wave);
+        for (auto place = found.begin(); place != found.end(); ++place) use(entries_[place->entry]);
     }
 
   private:
