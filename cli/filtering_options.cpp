@@ -4,9 +4,11 @@
 
 namespace rawtexel::cli {
 
+using shading::Blend;
 using shading::FilteringOptions;
 using shading::FilterOrder;
 using shading::NumberSharing;
+using shading::ShadowTaps;
 using texunit::Estimator;
 
 void declare_filtering_options(CommandLine& line, FilteringOptions& filtering) {
@@ -34,6 +36,16 @@ void declare_filtering_options(CommandLine& line, FilteringOptions& filtering) {
                 [&](const std::string& text) {
                     using texunit::Noise;
                     filtering.noise = parse_choice("--noise", text, {Noise::White, Noise::Sobol, Noise::R2, Noise::Blue, Noise::Stbn});
+                });
+    line.option("--blend", "all|draw",
+                "planes of triplanar materials and layers of layered ones: every one looked up and weighed, or one drawn at each point "
+                "(default draw with an estimator that draws, else all)",
+                [&](const std::string& text) {
+                    filtering.blend = parse_choice("--blend", text, {Blend::All, Blend::Draw});
+                });
+    line.option("--shadow-taps", "all|one", "depth tests of the sun's shadow: a tent of 16 (the default), or one drawn from it",
+                [&](const std::string& text) {
+                    filtering.shadow_taps = parse_choice("--shadow-taps", text, {ShadowTaps::All, ShadowTaps::One});
                 });
     line.option("--signed-numbers", "independent|common",
                 "numbers of the draws from positive and from negative weights: their own (the default), or the same",

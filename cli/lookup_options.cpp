@@ -91,6 +91,8 @@ std::vector<std::pair<std::string, std::string>> print_choices(const LookupOptio
             {"taps", std::to_string(lookup.filtering.taps)},
             {"order", std::string(to_string(lookup.filtering.effective_order()))},
             {"random", std::string(to_string(lookup.filtering.sharing))},
+            {"blend", std::string(to_string(lookup.filtering.effective_blend()))},
+            {"shadow-taps", std::string(to_string(lookup.filtering.shadow_taps))},
             {"noise", std::string(to_string(lookup.filtering.noise))},
             {"signed-numbers", lookup.filtering.common_numbers ? "common" : "independent"},
             {"precision", std::string(to_string(lookup.precision))},

@@ -14,7 +14,7 @@ struct BuiltinScene {
     shading::Scene (*make)(const texunit::TextureOptions&);
 };
 
-/// plane spheres magnify metal-edge bumps foliage courtyard
+/// plane spheres magnify metal-edge bumps foliage triplanar layers font shadow courtyard
 std::span<const BuiltinScene> builtin_scenes();
 
 }  // namespace rawtexel::scenes

@@ -1,6 +1,7 @@
 #include "scenes/builtin_assembly.h"
 
 #include "scenes/shapes.h"
+#include "scenes/tangents.h"
 
 #include "shading/environment.h"
 
@@ -76,7 +77,7 @@ uint32_t SceneAssembly::add_material(shading::Material material) {
 uint32_t SceneAssembly::add_mesh(std::string name, uint32_t material, shading::Mesh mesh) {
     mesh.name = std::move(name);
     mesh.material = material;
-    if (scene_.materials[material].maps[shading::kNormal].texture < 0) {
+    if (!map_with_tangents(scene_.materials, material)) {
         mesh.tangents.clear();
     }
     drop_unused_points(mesh);

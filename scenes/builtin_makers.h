@@ -12,6 +12,10 @@ shading::Scene make_magnify(const texunit::TextureOptions& options);
 shading::Scene make_metal_edge(const texunit::TextureOptions& options);
 shading::Scene make_bumps(const texunit::TextureOptions& options);
 shading::Scene make_foliage(const texunit::TextureOptions& options);
+shading::Scene make_triplanar(const texunit::TextureOptions& options);
+shading::Scene make_layers(const texunit::TextureOptions& options);
+shading::Scene make_font(const texunit::TextureOptions& options);
+shading::Scene make_shadow(const texunit::TextureOptions& options);
 shading::Scene make_courtyard(const texunit::TextureOptions& options);
 
 }  // namespace rawtexel::scenes

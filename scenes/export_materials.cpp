@@ -56,21 +56,33 @@ class MaterialExport {
         add_map(exported, "emissiveTexture", shading::kEmissive, true);
         add_emission(exported);
         add_modes(exported);
+        add_branches(exported);
         return exported;
     }
 
   private:
     json* add_map(json& object, const char* name, shading::MapSlot slot, bool color) {
         const shading::TextureMap& map = material_.maps[slot];
-        if (map.texture < 0) return nullptr;
-        json& info = object[name];
-        info["index"] = textures_.texture(map.texture, map.sampler, color);
+        return map.texture < 0 ? nullptr : &(object[name] = texture_info(map, color));
+    }
+
+    json texture_info(const shading::TextureMap& map, bool color) {
+        json info = {{"index", textures_.texture(map.texture, map.sampler, color)}};
         if (map.uv_set != 0) info["texCoord"] = map.uv_set;
         if (map.uv_from_vertex != kIdentity) {
             info["extensions"]["KHR_texture_transform"] = texture_transform(map.uv_from_vertex, what_);
             require("KHR_texture_transform");
         }
-        return &info;
+        return info;
+    }
+
+    void add_branches(json& exported) {
+        if (const auto& triplanar = material_.triplanar)
+            exported["extras"]["rawtexel"]["triplanar"] = {{"scale", double(triplanar->scale)}, {"sharpness", triplanar->sharpness}};
+        if (!material_.layers) return;
+        json& layers = exported["extras"]["rawtexel"]["layers"];
+        layers["materials"] = material_.layers->materials;
+        if (material_.layers->mask.texture >= 0) layers["mask"] = texture_info(material_.layers->mask, false);
     }
 
     /// A factor of at most 1 and a strength that is a power of two, so that their product is exact.

@@ -55,6 +55,7 @@ class MaterialReader {
         material.maps[shading::kNormal] = map(source.normalTexture, false);
         material.maps[shading::kOcclusion] = map(source.occlusionTexture, false);
         material.maps[shading::kEmissive] = map(source.emissiveTexture, true);
+        if (source.extras.Has("rawtexel")) set_branches(source.extras.Get("rawtexel"), material);
         return material;
     }
 
@@ -76,6 +77,29 @@ class MaterialReader {
         else if (source.alphaMode != "OPAQUE")
             document_.fail("materials[" + std::to_string(index) + "].alphaMode is \"" + one_line(source.alphaMode) +
                            "\" (allowed: OPAQUE, MASK, BLEND)");
+    }
+
+    void set_branches(const Value& own, shading::Material& material) {
+        if (own.Has("triplanar")) {
+            const Value& from = own.Get("triplanar");
+            shading::Triplanar& triplanar = material.triplanar.emplace();
+            triplanar.scale = float(number(from, "scale", triplanar.scale));
+            triplanar.sharpness = int(number(from, "sharpness", triplanar.sharpness));
+        }
+        if (!own.Has("layers")) return;
+        const Value& from = own.Get("layers");
+        shading::LayerBlend& layers = material.layers.emplace();
+        const Value& materials = from.Get("materials");
+        for (size_t i = 0; i < materials.ArrayLen(); ++i) layers.materials.push_back(uint32_t(materials.Get(int(i)).GetNumberAsInt()));
+        if (from.Has("mask")) layers.mask = map(texture_info(from.Get("mask")), false);
+    }
+
+    static tinygltf::TextureInfo texture_info(const Value& value) {
+        tinygltf::TextureInfo info;
+        info.index = value.Get("index").GetNumberAsInt();
+        info.texCoord = int(number(value, "texCoord", 0));
+        if (value.Has("extensions")) info.extensions = value.Get("extensions").Get<Value::Object>();
+        return info;
     }
 
     /// `Info` is any of tinygltf's texture references.
@@ -103,12 +127,49 @@ class MaterialReader {
     GltfNotices& notices_;
 };
 
+/// What the schema cannot say of materials that blend.
+class BranchCheck {
+  public:
+    BranchCheck(const GltfDocument& document, const std::vector<shading::Material>& materials)
+        : document_(document), materials_(materials) {}
+
+    void run(size_t index) const {
+        const shading::Material& material = materials_[index];
+        if (!material.triplanar && !material.layers) return;
+        const std::string place = "materials[" + std::to_string(index) + "].";
+        if (material.alpha_mode != shading::AlphaMode::Opaque)
+            document_.fail(place + "alphaMode is not OPAQUE (which extras.rawtexel's triplanar and layers ask for)");
+        if (material.triplanar && material.layers)
+            document_.fail(place + "extras.rawtexel has triplanar and layers (allowed: one of them)");
+        if (material.layers) check_layers(*material.layers, place + "extras.rawtexel.layers.materials");
+    }
+
+  private:
+    void check_layers(const shading::LayerBlend& layers, const std::string& place) const {
+        const size_t count = layers.materials.size();
+        if (count < shading::kFewestLayers || count > shading::kMostLayers)
+            document_.fail(place + " is an array of " + std::to_string(count) + " (allowed: 2 to 4)");
+        const bool unlit = materials_[layers.materials[0]].unlit;
+        for (size_t k = 0; k < count; ++k) {
+            const shading::Material& layer = materials_[layers.materials[k]];
+            const std::string found = place + "[" + std::to_string(k) + "] is " + std::to_string(layers.materials[k]) + ", a material ";
+            if (layer.layers) document_.fail(found + "with layers of its own (which is not allowed)");
+            if (layer.alpha_mode != shading::AlphaMode::Opaque) document_.fail(found + "that is not OPAQUE (as layers are)");
+            if (layer.unlit != unlit) document_.fail(found + "that is " + (layer.unlit ? "unlit" : "lit") + " (allowed: all are, or none)");
+        }
+    }
+
+    const GltfDocument& document_;
+    const std::vector<shading::Material>& materials_;
+};
+
 }  // namespace
 
 std::vector<shading::Material> read_materials(const GltfDocument& document, GltfTextures& textures, GltfNotices& notices) {
     MaterialReader reader(document, textures, notices);
     std::vector<shading::Material> materials;
     for (const tinygltf::Material& source : document.model.materials) materials.push_back(reader.read(source, materials.size()));
+    for (size_t i = 0; i < materials.size(); ++i) BranchCheck(document, materials).run(i);
     return materials;
 }
 

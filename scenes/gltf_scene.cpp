@@ -12,6 +12,7 @@
 #include "scenes/gltf_primitive.h"
 #include "scenes/gltf_textures.h"
 #include "scenes/message_text.h"
+#include "scenes/tangents.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -102,22 +103,29 @@ class SceneBuilder {
         const auto& [mesh, primitive, node, weights] = key;
         const int material = document_.model.meshes[size_t(mesh)].primitives[size_t(primitive)].material;
         const uint32_t drawn_material = material >= 0 ? uint32_t(material) : default_material();
-        const shading::TextureMap& normal_map = scene_.materials[drawn_material].maps[shading::kNormal];
-        const PrimitiveRequest request{mesh, primitive, weights, pose, normal_map.texture >= 0 ? &normal_map : nullptr};
+        const PrimitiveRequest request{mesh, primitive, weights, pose, map_with_tangents(scene_.materials, drawn_material)};
         auto read = read_primitive(document_, accessors_, request, notices_);
         if (!read) return std::nullopt;
-        tell_of_missing_coordinates(*read, scene_.materials[drawn_material]);
+        tell_of_missing_coordinates(*read, drawn_material);
         read->material = drawn_material;
         entry->second = uint32_t(scene_.meshes.size());
         scene_.meshes.push_back(std::move(*read));
         return entry->second;
     }
 
-    void tell_of_missing_coordinates(const shading::Mesh& mesh, const shading::Material& material) {
-        for (const shading::TextureMap& map : material.maps)
-            if (map.texture >= 0 && mesh.uv[size_t(map.uv_set)].empty())
-                notices_.say_once("meshes without TEXCOORD_" + std::to_string(map.uv_set) +
-                                  " show one point of the textures that their materials put on it");
+    void tell_of_missing_coordinates(const shading::Mesh& mesh, uint32_t index) {
+        const shading::Material& material = scene_.materials[index];
+        if (material.layers) {
+            tell_of_missing_coordinates(mesh, material.layers->mask);
+            for (const uint32_t layer : material.layers->materials) tell_of_missing_coordinates(mesh, layer);
+        } else if (!material.triplanar) {
+            for (const shading::TextureMap& map : material.maps) tell_of_missing_coordinates(mesh, map);
+        }
+    }
+    void tell_of_missing_coordinates(const shading::Mesh& mesh, const shading::TextureMap& map) {
+        if (map.texture >= 0 && mesh.uv[size_t(map.uv_set)].empty())
+            notices_.say_once("meshes without TEXCOORD_" + std::to_string(map.uv_set) +
+                              " show one point of the textures that their materials put on it");
     }
 
     /// What primitives without a material are drawn with (glTF 2.0, 3.9.6), made when one is met.

@@ -1,5 +1,7 @@
 #include "scenes/gltf_schema_rules.h"
 
+#include "shading/scene.h"
+
 namespace rawtexel::scenes {
 namespace {
 
@@ -129,6 +131,24 @@ constexpr Property kMaterialExtensions[] = {
     {.name = "KHR_materials_unlit", .kind = Kind::Object, .object = &kEmptyRules},
 };
 constexpr ObjectRules kMaterialExtensionsRules{kMaterialExtensions};
+constexpr Property kTriplanar[] = {
+    {.name = "scale", .kind = Kind::Number, .minimum = kAboveZero, .maximum = 1e6, .allowed = "a number above 0, at most 1e6"},
+    {.name = "sharpness", .kind = Kind::Integer, .minimum = 1, .maximum = shading::kMostSharpness},
+};
+constexpr Property kLayers[] = {
+    {.name = "materials", .kind = Kind::Indices, .required = true, .refers_to = "materials"},
+    {.name = "mask", .kind = Kind::Object, .object = &kTextureInfoRules},
+};
+constexpr ObjectRules kTriplanarRules{kTriplanar}, kLayersRules{kLayers};
+constexpr Property kMaterialRawtexel[] = {
+    {.name = "triplanar", .kind = Kind::Object, .object = &kTriplanarRules},
+    {.name = "layers", .kind = Kind::Object, .object = &kLayersRules},
+};
+constexpr ObjectRules kMaterialRawtexelRules{kMaterialRawtexel};
+constexpr Property kMaterialExtras[] = {
+    {.name = "rawtexel", .kind = Kind::Object, .object = &kMaterialRawtexelRules},
+};
+constexpr ObjectRules kMaterialExtrasRules{kMaterialExtras};
 constexpr Property kMaterial[] = {
     {.name = "name", .kind = Kind::Text},
     {.name = "pbrMetallicRoughness", .kind = Kind::Object, .object = &kMetallicRoughnessRules},
@@ -140,6 +160,7 @@ constexpr Property kMaterial[] = {
     {.name = "alphaCutoff", .kind = Kind::Number, .minimum = 0},
     {.name = "doubleSided", .kind = Kind::Flag},
     {.name = "extensions", .kind = Kind::Object, .object = &kMaterialExtensionsRules},
+    {.name = "extras", .kind = Kind::Extras, .object = &kMaterialExtrasRules},
 };
 
 constexpr Property kPrimitive[] = {

@@ -81,4 +81,15 @@ void generate_tangents(Mesh& mesh, int uv_set, const glm::mat3x2& uv_from_vertex
     assign_corners(mesh, corners);
 }
 
+const shading::TextureMap* map_with_tangents(std::span<const shading::Material> materials, uint32_t index) {
+    const shading::Material& material = materials[index];
+    if (material.layers) {
+        for (const uint32_t layer : material.layers->materials)
+            if (const auto* map = map_with_tangents(materials, layer)) return map;
+        return nullptr;
+    }
+    const shading::TextureMap& map = material.maps[shading::kNormal];
+    return map.texture >= 0 && !material.triplanar ? &map : nullptr;
+}
+
 }  // namespace rawtexel::scenes

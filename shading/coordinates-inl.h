@@ -36,6 +36,14 @@ HWY_INLINE FloatVector transformed(const glm::mat3x2& m, int row, FloatVector u,
     return hn::Add(hn::Add(hn::Mul(hn::Set(d, m[0][row]), u), hn::Mul(hn::Set(d, m[1][row]), v)), hn::Set(d, m[2][row]));
 }
 
+HWY_INLINE void transform_corners(const CoordinateState& state, CornerCoordinate& u, CornerCoordinate& v) {
+    if (state.identity) return;
+    const glm::mat3x2& m = state.uv_from_vertex;
+    const CornerCoordinate u_set = u, v_set = v;
+    u = {transformed(m, 0, u_set.f0, v_set.f0), transformed(m, 0, u_set.f1, v_set.f1), transformed(m, 0, u_set.f2, v_set.f2)};
+    v = {transformed(m, 1, u_set.f0, v_set.f0), transformed(m, 1, u_set.f1, v_set.f1), transformed(m, 1, u_set.f2, v_set.f2)};
+}
+
 /// Both coordinates of the three corners, transformed; zero where the mesh lacks the set.
 template <class Corners>
 HWY_INLINE void corner_coordinates(const CoordinateState& state, const Mesh& mesh, const Corners& corners, size_t i, CornerCoordinate& u,
@@ -49,11 +57,7 @@ HWY_INLINE void corner_coordinates(const CoordinateState& state, const Mesh& mes
         v = {corners.template corner<2>(0, values + 1, i), corners.template corner<2>(1, values + 1, i),
              corners.template corner<2>(2, values + 1, i)};
     }
-    if (state.identity) return;
-    const glm::mat3x2& m = state.uv_from_vertex;
-    const CornerCoordinate u_set = u, v_set = v;
-    u = {transformed(m, 0, u_set.f0, v_set.f0), transformed(m, 0, u_set.f1, v_set.f1), transformed(m, 0, u_set.f2, v_set.f2)};
-    v = {transformed(m, 1, u_set.f0, v_set.f0), transformed(m, 1, u_set.f1, v_set.f1), transformed(m, 1, u_set.f2, v_set.f2)};
+    transform_corners(state, u, v);
 }
 
 /// One coordinate and its derivatives at lanes [i, i + Lanes).
@@ -66,16 +70,21 @@ HWY_INLINE void interpolate_coordinate(const CornerCoordinate& c, const raster::
     hn::Store(hn::Add(hn::Mul(hn::Load(d, weights.db1_dy + i), f1), hn::Mul(hn::Load(d, weights.db2_dy + i), f2)), d, ddy.lane + i);
 }
 
+HWY_INLINE void interpolate_corners(const CoordinateState& state, CornerCoordinate u, CornerCoordinate v,
+                                    const raster::BarycentricWave& weights, size_t i, texunit::WaveCoordinates& out) {
+    reduce_range(state.wrap_s, u);
+    reduce_range(state.wrap_t, v);
+    interpolate_coordinate(u, weights, i, out.u, out.dudx, out.dudy);
+    interpolate_coordinate(v, weights, i, out.v, out.dvdx, out.dvdy);
+}
+
 template <class Corners>
 HWY_INLINE void interpolate_coordinates(const CoordinateState& state, const Mesh& mesh, const Corners& corners,
                                         const raster::BarycentricWave& weights, texunit::WaveCoordinates& out) {
     for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(FloatLanes())) {
         CornerCoordinate u, v;
         corner_coordinates(state, mesh, corners, i, u, v);
-        reduce_range(state.wrap_s, u);
-        reduce_range(state.wrap_t, v);
-        interpolate_coordinate(u, weights, i, out.u, out.dudx, out.dudy);
-        interpolate_coordinate(v, weights, i, out.v, out.dvdx, out.dvdy);
+        interpolate_corners(state, u, v, weights, i, out);
     }
 }
 

@@ -6,6 +6,7 @@
 #define RAWTEXEL_SHADING_DEMANDED_LOOKUPS_INL_H_
 #endif
 
+#include "shading/branches-inl.h"
 #include "shading/coordinates-inl.h"
 #include "shading/derivatives-inl.h"
 #include "shading/fetch_options.h"
@@ -179,7 +180,34 @@ class DemandedLookups {
         const MaterialState& material = *asking_.draw->material;
         if (asking_.base_color == 0) return;
         listener_.fragments({asking_.draw, asking_.base_color, asking_.setup_index, let_through});
+        if (material.branches()) return tell_branches();
         find_coordinates(material);
+        tell_maps(material);
+    }
+
+    /// Of each plane and layer that is looked up.
+    HWY_NOINLINE void tell_branches() {
+        find_weights();
+        const AskingFragments all = asking_;
+        const Mesh& mesh = *all.draw->mesh;
+        const auto with_all = [&](const auto& act) HWY_ATTR {
+            with_corners(frame_, mesh, all.setup_index, {0, all.base_color, all.one_triangle}, act);
+        };
+        with_all([&](const auto& corners) HWY_ATTR { branches_.prepare(*all.draw, corners, weights_); });
+        const texunit::RandomAddress address{.x = uint32_t(wave_.x), .y = uint32_t(wave_.y), .sample = wave_.sample, .seed = inputs_.seed};
+        const auto tell_mask = [&](const MaskLookup& mask) { listener_.lookup({kLayerMask, mask.map, mask.lanes, mask.at}); };
+        branches_.for_each(*all.draw, all.base_color, address, tell_mask, [&](const Branch& branch) HWY_ATTR {
+            const MaterialState& material = *branch.draw->material;
+            with_all([&](const auto& corners)
+                         HWY_ATTR { interpolate_map_coordinates(material, mesh, corners, weights_, branch.planes, coordinates_); });
+            asking_.base_color = all.base_color & branch.lanes;
+            asking_.others = all.others & branch.lanes;
+            tell_maps(material);
+        });
+        asking_ = all;
+    }
+
+    void tell_maps(const MaterialState& material) {
         for (int slot = 0; slot < kMapSlots; ++slot) {
             const MapState& map = material.maps[size_t(slot)];
             if (map.texture && lanes_of(slot) != 0 && !draws(material, slot)) listener_.lookup(lookup_of(map, slot));
@@ -232,6 +260,14 @@ class DemandedLookups {
 
     void find_coordinates(const MaterialState& material) {
         if (material.coordinate_count == 0) return;
+        find_weights();
+        const Mesh& mesh = *asking_.draw->mesh;
+        with_corners(frame_, mesh, asking_.setup_index, {0, asking_.base_color, asking_.one_triangle}, [&](const auto& corners) HWY_ATTR {
+            interpolate_map_coordinates(material, mesh, corners, weights_, nullptr, coordinates_);
+        });
+    }
+
+    void find_weights() {
         find_barycentrics(inputs_.derivatives, {frame_, asking_.setup_index, offset_, wave_.x, wave_.y}, asking_.base_color, weights_);
         const raster::BarycentricWave unclamped = weights_;
         clamp_weights(weights_);
@@ -240,11 +276,6 @@ class DemandedLookups {
             weights_.b1[lane] = unclamped.b1[lane];
             weights_.b2[lane] = unclamped.b2[lane];
         }
-        const Mesh& mesh = *asking_.draw->mesh;
-        with_corners(frame_, mesh, asking_.setup_index, {0, asking_.base_color, asking_.one_triangle}, [&](const auto& corners) HWY_ATTR {
-            for (int k = 0; k < material.coordinate_count; ++k)
-                interpolate_coordinates(material.coordinates[size_t(k)], mesh, corners, weights_, coordinates_[k]);
-        });
     }
 
     const TileInputs& inputs_;
@@ -262,6 +293,7 @@ class DemandedLookups {
     texunit::WaveCoordinates coordinates_[kMapSlots]{};
     MaterialTaps taps_;
     uint32_t begun_ = 0;  ///< one bit a map whose draws have begun
+    MaterialBranches branches_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -90,10 +90,29 @@ bool disagrees(const MaterialState& state) {
     return false;
 }
 
+/// The mask weighs every tap whatever the estimator: the layers' weights are to be the same for all.
+void add_mask(const Scene& scene, const LookupOverrides& overrides, MaterialState& state) {
+    const TextureMap& map = state.material->layers->mask;
+    if (map.texture < 0) return;
+    state.mask.texture = scene.textures[size_t(map.texture)].texture.get();
+    state.mask.texture_index = uint32_t(map.texture);
+    state.mask.sampler = map.sampler;
+    override_sampler(overrides, state.mask.sampler);
+    state.mask.sampler.estimator = texunit::Estimator::All;
+    state.mask.coordinates = coordinates_of(state, map);
+}
+
 MaterialState make_material_state(const Scene& scene, uint32_t index, const LookupOverrides& overrides) {
     MaterialState state;
     state.material = &scene.materials[index];
     state.index = index;
+    state.blend = overrides.filtering.effective_blend();
+    state.blends_light = overrides.filtering.effective_order() == FilterOrder::After;
+    state.plans.noise = overrides.filtering.noise;
+    if (state.material->layers) {
+        add_mask(scene, overrides, state);
+        return state;
+    }
     for (int slot = 0; slot < kMapSlots; ++slot) {
         const TextureMap& map = state.material->maps[size_t(slot)];
         if (map.texture < 0 || !map_matters(*state.material, slot, overrides)) continue;
@@ -112,6 +131,16 @@ MaterialState make_material_state(const Scene& scene, uint32_t index, const Look
     return state;
 }
 
+/// `states` has the material of every layer, at its place.
+void link_layers(std::vector<MaterialState>& states) {
+    for (MaterialState& state : states) {
+        if (!state.material->layers) continue;
+        const std::vector<uint32_t>& layers = state.material->layers->materials;
+        assert(layers.size() >= kFewestLayers && layers.size() <= kMostLayers);
+        for (const uint32_t layer : layers) state.layers[size_t(state.layer_count++)] = &states[layer];
+    }
+}
+
 /// Columns are cross products of the matrix's columns: M's cofactors, which take cross(a, b) to cross(Ma, Mb).
 glm::mat3 cofactors(const glm::mat3& m) { return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])}; }
 
@@ -121,6 +150,7 @@ DrawState make_draw_state(const Mesh& mesh, const MaterialState& material, const
     const glm::mat3 linear(world_from_object);
     draw.handedness = glm::determinant(linear) < 0.0f ? -1.0f : 1.0f;
     draw.world_from_normal = draw.handedness * cofactors(linear);
+    draw.colors_weigh = material.layer_count > 0 && !material.mask.texture;
     return draw;
 }
 
@@ -168,6 +198,7 @@ DrawStates make_draw_states(const Scene& scene, const LookupOverrides& overrides
     DrawStates states;
     states.materials.reserve(scene.materials.size());
     for (uint32_t i = 0; i < scene.materials.size(); ++i) states.materials.push_back(make_material_state(scene, i, overrides));
+    link_layers(states.materials);
     states.draws.reserve(scene.instances.size());
     uint32_t triangle_id = 0;
     for (const Instance& instance : scene.instances) {

@@ -41,6 +41,14 @@ struct MaterialState {
     int coordinate_count = 0;
     TapPlans plans;
     NumberSharing sharing = NumberSharing::Shared;
+    // Of materials that blend planes or layers.
+    Blend blend = Blend::All;
+    bool blends_light = false;                               ///< where all are blended: what they look like, not what they are
+    std::array<const MaterialState*, kMostLayers> layers{};  ///< in place of maps
+    int layer_count = 0;
+    MapState mask;  ///< of the layers' weights
+
+    bool branches() const { return layer_count > 0 || material->triplanar.has_value(); }
 };
 
 struct DrawState {
@@ -50,7 +58,8 @@ struct DrawState {
     glm::mat4 world_from_object{1.0f};
     /// Takes object-space normals, geometric ones too, to the world's side of a front face; their length is lost.
     glm::mat3 world_from_normal{1.0f};
-    float handedness = 1.0f;  ///< -1 when the transform mirrors
+    float handedness = 1.0f;    ///< -1 when the transform mirrors
+    bool colors_weigh = false;  ///< vertex colours are weights of layers, not colour
 };
 
 /// What the caller's options change in every lookup.

@@ -17,8 +17,15 @@ enum class FilterOrder : uint8_t { Before, After };
 /// result is that of filtering before shading, with noise.
 enum class NumberSharing : uint8_t { Shared, PerMap };
 
+/// What is blended at a point, planes of a triplanar material or layers: every one looked up and weighed, or one drawn.
+enum class Blend : uint8_t { All, Draw };
+/// Depth tests of the sun's shadow: the whole tent of 16, or one drawn from it.
+enum class ShadowTaps : uint8_t { All, One };
+
 std::string_view to_string(FilterOrder order);      // before after
 std::string_view to_string(NumberSharing sharing);  // shared per-map
+std::string_view to_string(Blend blend);            // all draw
+std::string_view to_string(ShadowTaps taps);        // all one
 std::optional<FilterOrder> parse_filter_order(std::string_view text);
 std::optional<NumberSharing> parse_number_sharing(std::string_view text);
 
@@ -32,9 +39,12 @@ struct FilteringOptions {
     /// Whether the draws of either sign, of kernels with negative lobes, use the same numbers.
     bool common_numbers = false;
     texunit::Noise noise = texunit::Noise::White;  ///< of the draws
+    std::optional<Blend> blend = std::nullopt;     ///< nullopt: Draw with an estimator that draws, else All
+    ShadowTaps shadow_taps = ShadowTaps::All;
 
     bool draws() const { return estimator != texunit::Estimator::All; }
     FilterOrder effective_order() const { return order.value_or(draws() ? FilterOrder::After : FilterOrder::Before); }
+    Blend effective_blend() const { return blend.value_or(draws() ? Blend::Draw : Blend::All); }
 };
 
 }  // namespace rawtexel::shading

@@ -8,6 +8,7 @@
 
 #include "shading/coordinates-inl.h"
 #include "shading/fragment.h"
+#include "shading/planes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rawtexel::shading {
@@ -96,19 +97,20 @@ HWY_INLINE void interpolate_colors(const Mesh& mesh, const Corners& corners, con
     }
 }
 
-/// All that the draw's material reads. `out.facing` is the caller's.
+/// All that the draw's material reads, on the planes of a triplanar one. `out.facing` is the caller's.
 template <class Corners>
 HWY_INLINE void interpolate_fragment(const DrawState& draw, const Corners& corners, const raster::BarycentricWave& weights,
-                                     FragmentWave& out) {
+                                     FragmentWave& out, const PlaneLanes* planes = nullptr) {
     const MaterialState& material = *draw.material;
     const Mesh& mesh = *draw.mesh;
     interpolate_geometry(draw, corners, weights, out);
     if (!mesh.colors.empty()) interpolate_colors(mesh, corners, weights, out.color);
-    for (int k = 0; k < material.coordinate_count; ++k)
-        interpolate_coordinates(material.coordinates[size_t(k)], mesh, corners, weights, out.coordinates[k]);
+    interpolate_map_coordinates(material, mesh, corners, weights, planes, out.coordinates);
     const MapState& normal_map = material.maps[kNormal];
     if (!normal_map.texture) return;
-    if (mesh.tangents.empty()) {
+    if (planes) {
+        find_plane_tangents(draw, material.coordinates[size_t(normal_map.coordinates)], *planes, out);
+    } else if (mesh.tangents.empty()) {
         derive_tangents(draw, material.coordinates[size_t(normal_map.coordinates)], corners, out);
     } else {
         interpolate_tangents(draw, corners, weights, out);

@@ -18,9 +18,23 @@ HWY_BEFORE_NAMESPACE();
 namespace rawtexel::shading {
 namespace HWY_NAMESPACE {
 
-/// Radiance that one punctual light adds; `shadow` null: nothing is in its way.
+/// What stands between a light and a point.
+template <class V>
+struct ShadowTest {
+    const ShadowMap* map;  ///< null: nothing
+    bool draws;            ///< one depth test by the numbers
+    V x, y;
+
+    template <class D>
+    HWY_INLINE V visibility(D d, const ShadingPoint<V>& p) const {
+        if (draws) return drawn_shadow_visibility_lanes(d, *map, p.position, p.geometric_normal, x, y);
+        return shadow_visibility_lanes(d, *map, p.position, p.geometric_normal);
+    }
+};
+
+/// Radiance that one punctual light adds.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE Vector3<V> punctual_radiance(D d, const Light& light, const ShadowMap* shadow, const ShadingPoint<V>& p) {
+HWY_INLINE Vector3<V> punctual_radiance(D d, const Light& light, const ShadowTest<V>& shadow, const ShadingPoint<V>& p) {
     const V zero = hn::Zero(d);
     const Incidence<V> arriving = incidence(d, light, p.position);
     const V n_dot_l = dot(p.normal, arriving.to_light);
@@ -28,7 +42,7 @@ HWY_INLINE Vector3<V> punctual_radiance(D d, const Light& light, const ShadowMap
     if (hn::AllFalse(d, lit)) return {zero, zero, zero};
 
     V share = arriving.attenuation;
-    if (shadow != nullptr) share = hn::Mul(share, shadow_visibility_lanes(d, *shadow, p.position, p.geometric_normal));
+    if (shadow.map) share = hn::Mul(share, shadow.visibility(d, p));
     share = hn::IfThenElseZero(lit, share);
     if (hn::AllFalse(d, hn::Gt(share, zero))) return {zero, zero, zero};
     const Vector3<V> reflected = brdf_cosine(d, p, arriving.to_light, hn::Max(n_dot_l, zero));
@@ -83,7 +97,8 @@ HWY_INLINE Vector3<V> environment_radiance(D d, const Environment::Tables& table
 }
 
 /// Radiance towards the viewer at the lanes of `mask`: shade_surface of lighting.h.
-inline void shade_lanes(const Lighting& lighting, const SurfaceWave& surface, WaveMask mask, WaveVector& radiance) {
+inline void shade_lanes(const Lighting& lighting, const SurfaceWave& surface, WaveMask mask, WaveVector& radiance,
+                        const ShadowNumbers* shadow_numbers = nullptr) {
     const hn::ScalableTag<float> d;
     for (size_t i = 0; i < size_t(texunit::kWaveLanes); i += hn::Lanes(d)) {
         if (!any_active(mask, i, hn::Lanes(d))) {
@@ -95,11 +110,14 @@ inline void shade_lanes(const Lighting& lighting, const SurfaceWave& surface, Wa
         auto sum = add(scale(load3(d, surface.base_color, i), ambient), load3(d, surface.emission, i));
 
         // The shadow map is the first directional light's.
-        const ShadowMap* shadow = lighting.shadow.get();
+        const auto zero = hn::Zero(d);
+        ShadowTest<hn::Vec<decltype(d)>> shadow{lighting.shadow.get(), shadow_numbers != nullptr, zero, zero};
+        if (shadow.draws) shadow.x = hn::Load(d, shadow_numbers->x.lane + i), shadow.y = hn::Load(d, shadow_numbers->y.lane + i);
+        const ShadowTest<hn::Vec<decltype(d)>> nothing{nullptr, false, zero, zero};
         for (const Light& light : lighting.lights) {
             const bool directional = light.type == Light::Type::Directional;
-            sum = add(sum, punctual_radiance(d, light, directional ? shadow : nullptr, point));
-            if (directional) shadow = nullptr;
+            sum = add(sum, punctual_radiance(d, light, directional ? shadow : nothing, point));
+            if (directional) shadow.map = nullptr;
         }
         if (lighting.environment) sum = add(sum, environment_radiance(d, lighting.environment->tables(), lighting.reflections, point));
         store3(d, sum, radiance, i);

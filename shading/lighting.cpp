@@ -9,8 +9,8 @@ HWY_BEFORE_NAMESPACE();
 namespace rawtexel::shading {
 namespace HWY_NAMESPACE {
 
-void shade(const Lighting& lighting, const SurfaceWave& surface, WaveMask mask, WaveVector& radiance) {
-    shade_lanes(lighting, surface, mask, radiance);
+void shade(const Lighting& lighting, const SurfaceWave& surface, WaveMask mask, WaveVector& radiance, const ShadowNumbers* shadow_numbers) {
+    shade_lanes(lighting, surface, mask, radiance, shadow_numbers);
 }
 
 void look_around(const Environment& environment, const WaveVector& direction, WaveMask mask, WaveVector& out) {
@@ -68,8 +68,9 @@ glm::vec3 first_lane(const WaveVector& wave) { return {wave.x[0], wave.y[0], wav
 
 }  // namespace
 
-void shade_surface(const Lighting& lighting, const SurfaceWave& surface, WaveMask mask, WaveVector& radiance) {
-    HWY_DYNAMIC_DISPATCH(shade)(lighting, surface, mask, radiance);
+void shade_surface(const Lighting& lighting, const SurfaceWave& surface, WaveMask mask, WaveVector& radiance,
+                   const ShadowNumbers* shadow_numbers) {
+    HWY_DYNAMIC_DISPATCH(shade)(lighting, surface, mask, radiance, shadow_numbers);
 }
 
 glm::vec3 Environment::radiance(const glm::vec3& direction) const {

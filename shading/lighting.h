@@ -20,10 +20,17 @@ struct Lighting {
     std::shared_ptr<const ShadowMap> shadow;
 };
 
+/// Numbers in [0, 1) that draw one depth test of a shadow's filter for each lane.
+struct ShadowNumbers {
+    WaveFloat x, y;
+};
+
 /// Radiance towards the viewer of the lanes of `mask`: emission, punctual lights, environment, ambient.
+/// `shadow_numbers` null: shadows weigh all depth tests.
 /// glTF 2.0 appendix B: F0 = lerp(0.04, base, metallic); GGX D, height-correlated Smith V, Schlick F; diffuse (1-F)(1-metallic)base/pi.
 /// Occlusion dims ambient and environment. The same bits on every instruction set, and a lane depends on nothing but itself.
 /// The vector form shading/light-inl.h is what the renderer inlines; this door dispatches to it, for tests and tools.
-void shade_surface(const Lighting& lighting, const SurfaceWave& surface, WaveMask mask, WaveVector& radiance);
+void shade_surface(const Lighting& lighting, const SurfaceWave& surface, WaveMask mask, WaveVector& radiance,
+                   const ShadowNumbers* shadow_numbers = nullptr);
 
 }  // namespace rawtexel::shading

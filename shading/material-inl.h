@@ -23,7 +23,7 @@ HWY_INLINE SpaceVector load_rgb(const texunit::WaveColor& color, size_t i) {
 HWY_INLINE void find_base_color(const DrawState& draw, const FragmentWave& fragment, const texunit::WaveColor& texel, SurfaceWave& out) {
     const FloatLanes d;
     const bool textured = draw.material->maps[kBaseColor].texture != nullptr;
-    const bool colored = !draw.mesh->colors.empty();
+    const bool colored = !draw.mesh->colors.empty() && !draw.colors_weigh;
     const SpaceVector factor = set3(d, glm::vec3(draw.material->material->base_color));
     const auto zero = hn::Zero(d);
     for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) {

@@ -159,6 +159,8 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
         .derivatives = derivative_rule(options.footprint, options.image_spp > 0 ? options.image_spp : options.spp),
         .background = options.background,
         .planes = TilePlanes(options.aovs, options.coverage),
+        .shadow_taps = options.filtering.shadow_taps,
+        .noise = options.filtering.noise,
         .fetch_model = fetches.model,
     };
     std::optional<FetchAccount> account;

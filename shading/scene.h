@@ -49,6 +49,23 @@ struct TextureMap {
 
 /// The maps of a material, in the order in which they are looked up.
 enum MapSlot { kBaseColor, kMetallicRoughness, kNormal, kOcclusion, kEmissive, kMapSlots };
+/// The mask of layers, which is no map of a material's own.
+inline constexpr MapSlot kLayerMask = kMapSlots;
+
+/// Maps projected along the axes of the object's space, not mapped by texture coordinates. At each point the three planes weigh
+/// |normal component|^sharpness, normalised.
+struct Triplanar {
+    float scale = 1.0f;  ///< repeats of the maps per metre of the object's space, > 0
+    int sharpness = 4;   ///< 1..kMostSharpness
+};
+inline constexpr int kMostSharpness = 64;
+
+/// Other materials, blended by weights that are normalised: channel k weighs layer k. Where all are 0 or less the first layer is seen.
+struct LayerBlend {
+    std::vector<uint32_t> materials;  ///< kFewestLayers..kMostLayers, in Scene::materials; none of them blends layers itself
+    TextureMap mask;                  ///< without texture: the vertex colours weigh, and colour nothing
+};
+inline constexpr size_t kFewestLayers = 2, kMostLayers = 4;
 
 enum class AlphaMode : uint8_t { Opaque, Mask, Blend };
 
@@ -65,6 +82,9 @@ struct Material {
     bool unlit = false;  ///< KHR_materials_unlit: base colour is the radiance
     std::array<TextureMap, kMapSlots> maps;
     LookupPolicy policy = {};  ///< of all its maps
+    // Both ask for AlphaMode::Opaque, of layers too.
+    std::optional<Triplanar> triplanar;
+    std::optional<LayerBlend> layers;  ///< in place of all that is said above but double_sided; the layers are lit, all or none of them
 };
 
 /// KHR_lights_punctual. Directional: `intensity` in lux; point and spot: candela.

@@ -77,8 +77,17 @@ HWY_INLINE ReceiverPlane<V> receiver_plane(D d, const ShadowMap& map, const Vect
     return plane;
 }
 
-/// Weight of one row of four taps whose texels are nearer to the light than the receiver.
+/// The tap that a number draws with its weight.
 template <class D, class V = hn::Vec<D>>
+HWY_INLINE V drawn_tap(D d, const TentTaps<V>& taps, V number) {
+    const V one = hn::Set(d, 1.0f);
+    const V sum0 = taps.weight0, sum1 = hn::Add(sum0, taps.weight1), sum2 = hn::Add(sum1, taps.weight2);
+    const auto beyond = [&](V sum) HWY_ATTR { return hn::IfThenElseZero(hn::Ge(number, sum), one); };
+    return hn::Add(taps.first, hn::Add(beyond(sum0), hn::Add(beyond(sum1), beyond(sum2))));
+}
+
+/// Weight of one row of four taps, or the first of them, whose texels are nearer to the light than the receiver.
+template <int kTaps = 4, class D, class V = hn::Vec<D>>
 HWY_INLINE V hidden_row(D d, const ShadowMap& map, const ReceiverPlane<V>& plane, const TentTaps<V>& columns, V row, V row_weight,
                         V hidden) {
     const hn::RebindToSigned<D> di;
@@ -97,6 +106,7 @@ HWY_INLINE V hidden_row(D d, const ShadowMap& map, const ReceiverPlane<V>& plane
         hidden = hn::Add(hidden, hn::IfThenElseZero(nearer, hn::Mul(weight, row_weight)));
     };
     tap(0.0f, columns.weight0);
+    if constexpr (kTaps == 1) return hidden;
     tap(1.0f, columns.weight1);
     tap(2.0f, columns.weight2);
     tap(3.0f, columns.weight3);
@@ -119,6 +129,24 @@ HWY_INLINE V shadow_visibility_lanes(D d, const ShadowMap& map, const Vector3<V>
     hidden = hidden_row(d, map, plane, columns, hn::Add(rows.first, hn::Set(d, 2.0f)), rows.weight2, hidden);
     hidden = hidden_row(d, map, plane, columns, hn::Add(rows.first, hn::Set(d, 3.0f)), rows.weight3, hidden);
     return hn::IfThenElseZero(facing, hn::Max(hn::Sub(one, hidden), zero));
+}
+
+/// One of the 16 tests, drawn with its weight by two numbers in [0, 1): 0 or 1, and in the mean shadow_visibility_lanes.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V drawn_shadow_visibility_lanes(D d, const ShadowMap& map, const Vector3<V>& position, const Vector3<V>& normal, V x, V y) {
+    const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    const V cosine = hn::Mul(row_dot(d, map.map_from_world, 2, normal), hn::Set(d, map.depth_world));
+    const auto facing = hn::Gt(cosine, zero);
+    if (hn::AllFalse(d, facing)) return zero;
+
+    const ReceiverPlane<V> plane = receiver_plane(d, map, position, normal, cosine);
+    TentTaps<V> column = tent_taps(d, plane.x, map.size);
+    column.first = drawn_tap(d, column, x);
+    column.weight0 = one;
+    column.weight1 = column.weight2 = column.weight3 = zero;
+    const V row = drawn_tap(d, tent_taps(d, plane.y, map.size), y);
+    const V hidden = hidden_row<1>(d, map, plane, column, row, one, zero);
+    return hn::IfThenElseZero(facing, hn::Sub(one, hidden));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -7,6 +7,8 @@
 #endif
 
 #include "raster/visibility-inl.h"
+#include "shading/branch_sum-inl.h"
+#include "shading/branches-inl.h"
 #include "shading/coverage-inl.h"
 #include "shading/demanded_lookups-inl.h"
 #include "shading/environment-inl.h"
@@ -260,16 +262,27 @@ class TileRenderer {
     /// One masked pass per draw that the wave sees.
     void shade_surfaces(WaveMask surface) {
         find_barycentrics(inputs_.derivatives, {frame_, wave_.setup_index, wave_.offset, wave_.x, wave_.y}, surface, weights_);
+        if (inputs_.shadow_taps == ShadowTaps::One) find_shadow_numbers();
         clamp_weights(weights_);
         for (WaveMask rest = surface; rest != 0;) {
             const DrawLanes seen = first_draw(frame_, wave_.setup_index, rest);
             const DrawState& draw = inputs_.draws[seen.draw];
             rest &= ~seen.lanes;
             find_facing(seen);
+            if (draw.material->branches()) {
+                shade_branches(draw, seen);
+                continue;
+            }
             with_corners(frame_, *draw.mesh, wave_.setup_index, seen,
                          [&](const auto& corners) HWY_ATTR { interpolate_fragment(draw, corners, weights_, fragment_); });
             shade_pass(draw, seen.lanes);
         }
+    }
+
+    void find_shadow_numbers() {
+        texunit::RandomAddress address = wave_address();
+        address.dimension = texunit::Dimension::Light;
+        noise_pair_wave(inputs_.noise, address, texunit::Dimension::LightY, light_numbers_.x, light_numbers_.y);
     }
 
     void find_facing(const DrawLanes& seen) {
@@ -281,7 +294,53 @@ class TileRenderer {
         for (WaveMask lanes = seen.lanes; lanes != 0; lanes &= lanes - 1) fragment_.facing[std::countr_zero(lanes)] = facing(lanes);
     }
 
+    /// A material that blends planes or layers: a pass for each that a lane sees.
+    HWY_NOINLINE void shade_branches(const DrawState& draw, const DrawLanes& seen) {
+        const MaterialState& material = *draw.material;
+        with_corners(frame_, *draw.mesh, wave_.setup_index, seen,
+                     [&](const auto& corners) HWY_ATTR { branches_.prepare(draw, corners, weights_); });
+        branch_sum_.clear();
+        branches_.for_each(
+            draw, seen.lanes, wave_address(), [](const MaskLookup&) {}, [&](const Branch& branch) { shade_branch(draw, seen, branch); });
+        if (material.blend == Blend::Draw) return;
+        if (material.blends_light) {
+            branch_sum_.light(radiance_, surface_);
+        } else {
+            branch_sum_.surface(surface_);
+            const MaterialState& lit = material.layer_count > 0 ? *material.layers[0] : material;
+            light_surface(*lit.material, seen.lanes);
+        }
+        store_pass(draw, seen.lanes);
+    }
+
+    /// Stored where it was drawn, else added to branch_sum_.
+    HWY_NOINLINE void shade_branch(const DrawState& draw, const DrawLanes& seen, const Branch& branch) {
+        with_corners(frame_, *draw.mesh, wave_.setup_index, seen, [&](const auto& corners) HWY_ATTR {
+            interpolate_fragment(*branch.draw, corners, weights_, fragment_, branch.planes);
+        });
+        if (!branch.weight) {
+            shade_fragments(*branch.draw, branch.lanes);
+            store_pass(draw, branch.lanes);
+        } else if (draw.material->blends_light) {
+            shade_fragments(*branch.draw, branch.lanes);
+            branch_sum_.add_light(*branch.weight, branch.lanes, radiance_, surface_);
+        } else {
+            find_branch_surface(*branch.draw, branch.lanes);
+            branch_sum_.add_surface(*branch.weight, branch.lanes, branch.draw->material->material->unlit, surface_);
+        }
+    }
+
+    texunit::RandomAddress wave_address() const {
+        return {.x = uint32_t(wave_.x), .y = uint32_t(wave_.y), .sample = wave_.sample, .seed = inputs_.seed};
+    }
+
     void shade_pass(const DrawState& draw, WaveMask pass) {
+        shade_fragments(draw, pass);
+        store_pass(draw, pass);
+    }
+
+    /// From fragment_ to radiance_ and surface_.
+    void shade_fragments(const DrawState& draw, WaveMask pass) {
         const MaterialState& material = *draw.material;
         WaveFloat lod = {};
         const bool wants_lod = first_sample_ && inputs_.planes.lod >= 0;
@@ -293,22 +352,46 @@ class TileRenderer {
             shade_maps(draw, pass);
             if (watched()) tell_shaded(draw, pass, nullptr, nullptr);
         }
+        if (wants_lod) store_wave(lod, pass, first_sample_plane(inputs_.planes.lod, wave_.index));
+    }
+
+    void store_pass(const DrawState& draw, WaveMask pass) {
         store_vector(radiance_, pass, TilePlanes::kRadiance, wave_.index);
         if (inputs_.planes.hits >= 0) store_layers(draw, pass);
-        if (wants_lod) store_wave(lod, pass, first_sample_plane(inputs_.planes.lod, wave_.index));
         if (first_sample_ && inputs_.planes.material >= 0)
-            store_value(float(material.index), pass, first_sample_plane(inputs_.planes.material, wave_.index));
+            store_value(float(draw.material->index), pass, first_sample_plane(inputs_.planes.material, wave_.index));
+    }
+
+    /// Of a branch that is blended with others before it is lit.
+    void find_branch_surface(const DrawState& draw, WaveMask pass) {
+        const MaterialState& material = *draw.material;
+        WaveFloat lod = {};
+        const bool wants_lod = first_sample_ && inputs_.planes.lod >= 0;
+        look_up_maps(material, fragment_, pass, maps_, wants_lod ? &lod : nullptr);
+        if (!material.plans.averaged.empty()) {
+            taps_.begin({&material, fragment_.coordinates, pass, wave_.x, wave_.y, wave_.sample, inputs_.seed, nullptr});
+            average_taps(taps_, material.plans.averaged, maps_.slot);
+            if (wants_lod) find_lod(material.maps[kBaseColor], pass, lod);
+        }
+        if (wants_lod) store_wave(lod, pass, first_sample_plane(inputs_.planes.lod, wave_.index));
+        find_surface(draw, fragment_, maps_, surface_);
+        if (watched()) tell_shaded(draw, pass, nullptr, nullptr);
+    }
+
+    /// From surface_ to radiance_.
+    void light_surface(const Material& material, WaveMask lanes) {
+        if (material.unlit) {
+            radiance_ = surface_.base_color;
+        } else {
+            turn_to_viewer();
+            shade_lanes(*inputs_.lighting, surface_, lanes, radiance_, inputs_.shadow_taps == ShadowTaps::One ? &light_numbers_ : nullptr);
+        }
     }
 
     /// From the maps' values to radiance_.
     void shade_maps(const DrawState& draw, WaveMask lanes) {
         find_surface(draw, fragment_, maps_, surface_);
-        if (draw.material->material->unlit) {
-            radiance_ = surface_.base_color;
-        } else {
-            turn_to_viewer();
-            shade_lanes(*inputs_.lighting, surface_, lanes, radiance_);
-        }
+        light_surface(*draw.material->material, lanes);
     }
 
     /// Draws of maps that are averaged before shading; raw texels of the others, shaded and then added up.
@@ -422,6 +505,9 @@ class TileRenderer {
     WaveVector radiance_{};
     MaterialTaps taps_;
     TapSum tap_sum_;
+    MaterialBranches branches_;
+    BranchSum branch_sum_;
+    ShadowNumbers light_numbers_{};
 };
 
 }  // namespace HWY_NAMESPACE

@@ -7,6 +7,7 @@
 #include "shading/candidate_log.h"
 #include "shading/draw_state.h"
 #include "shading/fetch_options.h"
+#include "shading/filtering_options.h"
 #include "shading/fragment_listener.h"
 #include "shading/lighting.h"
 #include "shading/lookup_listener.h"
@@ -36,6 +37,8 @@ struct TileInputs {
     DerivativeRule derivatives;
     std::optional<glm::vec3> background;  ///< nullopt: the environment, black where there is none
     TilePlanes planes;
+    ShadowTaps shadow_taps = ShadowTaps::All;
+    texunit::Noise noise = texunit::Noise::White;  ///< of the numbers that pick them
     FetchModel fetch_model = FetchModel::Visible;  ///< of what listeners hear
 };
 

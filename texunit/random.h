@@ -23,6 +23,7 @@ enum class Dimension : uint32_t {
     NegativeY = 13,
     NegativeZ = 14,
     NegativeSign = 15,
+    LightY = 16,  ///< with Light a point: which texel of a shadow's filter
 };
 
 struct RandomAddress {

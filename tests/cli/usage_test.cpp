@@ -155,7 +155,8 @@ TEST(List, NamesEverythingOneALine) {
 
 TEST(List, HoldsTheScenesOfTheGallery) {
     const std::string out = run({"list", "scenes"}).out;
-    for (const char* scene : {"plane", "spheres", "magnify", "metal-edge", "bumps", "foliage", "courtyard"})
+    for (const char* scene :
+         {"plane", "spheres", "magnify", "metal-edge", "bumps", "foliage", "triplanar", "layers", "font", "shadow", "courtyard"})
         EXPECT_NE(out.find(scene), std::string::npos) << scene;
 }
 

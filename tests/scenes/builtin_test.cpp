@@ -2,6 +2,7 @@
 #include "scenes/builtin.h"
 
 #include "scenes/load.h"
+#include "scenes/tangents.h"
 
 #include <gtest/gtest.h>
 
@@ -62,16 +63,25 @@ void expect_sound(const Scene& scene, const shading::Mesh& mesh) {
     }
 }
 
-void expect_maps_have_what_they_need(const Scene& scene, const shading::Mesh& mesh) {
-    const shading::Material& material = scene.materials[mesh.material];
+void expect_map_has_what_it_needs(const Scene& scene, const shading::Mesh& mesh, const shading::TextureMap& map, bool srgb) {
+    ASSERT_LT(size_t(map.texture), scene.textures.size()) << mesh.name;
+    EXPECT_EQ(scene.textures[size_t(map.texture)].srgb, srgb) << mesh.name;
+}
+
+void expect_maps_have_what_they_need(const Scene& scene, const shading::Mesh& mesh, uint32_t index) {
+    const shading::Material& material = scene.materials[index];
+    if (material.layers) {
+        for (const uint32_t layer : material.layers->materials) expect_maps_have_what_they_need(scene, mesh, layer);
+        const shading::TextureMap& mask = material.layers->mask;
+        if (mask.texture >= 0) expect_map_has_what_it_needs(scene, mesh, mask, false);
+        return;
+    }
     for (size_t slot = 0; slot < shading::kMapSlots; ++slot) {
         const shading::TextureMap& map = material.maps[slot];
         if (map.texture < 0) continue;
-        ASSERT_LT(size_t(map.texture), scene.textures.size()) << material.name;
-        EXPECT_EQ(scene.textures[size_t(map.texture)].srgb, slot == shading::kBaseColor || slot == shading::kEmissive) << material.name;
-        EXPECT_FALSE(mesh.uv[size_t(map.uv_set)].empty()) << mesh.name << " has no uv set " << map.uv_set;
+        expect_map_has_what_it_needs(scene, mesh, map, slot == shading::kBaseColor || slot == shading::kEmissive);
+        EXPECT_EQ(mesh.uv[size_t(map.uv_set)].empty(), material.triplanar.has_value()) << mesh.name << ", uv set " << map.uv_set;
     }
-    EXPECT_EQ(mesh.tangents.empty(), material.maps[shading::kNormal].texture < 0) << mesh.name;
 }
 
 class Builtin : public testing::TestWithParam<size_t> {};
@@ -81,7 +91,8 @@ TEST_P(Builtin, HasSoundGeometryAndMaterials) {
     EXPECT_EQ(scene.name, builtin_scenes()[GetParam()].name);
     for (const shading::Mesh& mesh : scene.meshes) {
         expect_sound(scene, mesh);
-        expect_maps_have_what_they_need(scene, mesh);
+        expect_maps_have_what_they_need(scene, mesh, mesh.material);
+        EXPECT_EQ(mesh.tangents.empty(), map_with_tangents(scene.materials, mesh.material) == nullptr) << mesh.name;
     }
     std::set<uint32_t> drawn;
     for (const shading::Instance& instance : scene.instances) {
@@ -119,13 +130,14 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Builtin, testing::Range(size_t{0}, builtin_scen
     return name;
 });
 
-TEST(Builtin, AreTheSevenOfTheManual) {
+TEST(Builtin, AreThoseOfTheManual) {
     std::vector<std::string_view> names;
     for (const BuiltinScene& scene : builtin_scenes()) {
         names.push_back(scene.name);
         EXPECT_FALSE(scene.description.empty());
     }
-    const std::vector<std::string_view> expected{"plane", "spheres", "magnify", "metal-edge", "bumps", "foliage", "courtyard"};
+    const std::vector<std::string_view> expected{"plane",     "spheres", "magnify", "metal-edge", "bumps",    "foliage",
+                                                 "triplanar", "layers",  "font",    "shadow",     "courtyard"};
     EXPECT_EQ(names, expected);
 }
 
@@ -229,6 +241,46 @@ TEST(Builtin, FoliageIsMaskedCards) {
         EXPECT_GT(covered, 400) << material.name;
         EXPECT_GT(open + covered, 3600) << material.name << " has hard edges";
     }
+}
+
+TEST(Builtin, TriplanarAndLayersBlend) {
+    const auto triplanar = [](const Scene& scene) {
+        uint64_t triangles = 0;
+        for (const shading::Instance& instance : scene.instances) {
+            const shading::Mesh& mesh = scene.meshes[instance.mesh];
+            if (scene.materials[mesh.material].triplanar) triangles += mesh.indices.size() / 3;
+        }
+        return triangles;
+    };
+    const Scene stones = make("triplanar"), path = make("layers");
+    EXPECT_GT(triplanar(stones), stones.triangle_count() / 2);
+    EXPECT_GT(triplanar(path), 0u);
+    const shading::Material& ground = path.materials[path.meshes[0].material];
+    ASSERT_TRUE(ground.layers);
+    EXPECT_EQ(ground.layers->materials.size(), 3u);
+    texunit::Texture& mask = *path.textures[size_t(ground.layers->mask.texture)].texture;
+    for (int channel = 0; channel < 3; ++channel) {
+        int pure = 0;
+        for (int i = 0; i < 4096; ++i) pure += mask.texel(0, 0, (i * 131) % 512, (i * 197) % 512)[size_t(channel)] > 0.99f;
+        EXPECT_GT(pure, 100) << "layer " << channel;
+    }
+}
+
+/// Along rows of the map alpha changes by no more than a texel's way: it is a distance, not a picture.
+TEST(Builtin, FontIsASlopeThatAHalfCuts) {
+    const Scene scene = make("font");
+    const shading::Material& ink = scene.materials[0];
+    EXPECT_EQ(ink.alpha_mode, shading::AlphaMode::Mask);
+    EXPECT_EQ(ink.alpha_cutoff, 0.5f);
+    texunit::Texture& map = *scene.textures[size_t(ink.maps[shading::kBaseColor].texture)].texture;
+    int inside = 0;
+    for (int y = 0; y < map.shape().height; ++y)
+        for (int x = 1; x < map.shape().width; ++x) {
+            const float alpha = map.texel(0, 0, x, y)[3], before = map.texel(0, 0, x - 1, y)[3];
+            ASSERT_LE(std::abs(alpha - before), 0.5f / 0.3f / 14.0f + 2.0f / 255.0f) << x << ' ' << y;
+            inside += alpha > 0.5f;
+        }
+    EXPECT_GT(inside, map.shape().width * map.shape().height / 20);
 }
 
 TEST(Builtin, CourtyardHasABitOfEverything) {

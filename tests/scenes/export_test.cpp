@@ -92,15 +92,25 @@ void expect_same_material(const Scene& written, const shading::Material& a, cons
     EXPECT_EQ(a.alpha_cutoff, b.alpha_cutoff) << a.name;
     EXPECT_EQ(a.double_sided, b.double_sided) << a.name;
     EXPECT_EQ(a.unlit, b.unlit) << a.name;
-    for (size_t slot = 0; slot < shading::kMapSlots; ++slot) {
-        const shading::TextureMap &from = a.maps[slot], &to = b.maps[slot];
-        ASSERT_EQ(from.texture < 0, to.texture < 0) << a.name << " slot " << slot;
-        if (from.texture < 0) continue;
-        EXPECT_EQ(from.sampler, to.sampler) << a.name << " slot " << slot;
-        EXPECT_EQ(from.uv_set, to.uv_set) << a.name << " slot " << slot;
-        EXPECT_EQ(from.uv_from_vertex, to.uv_from_vertex) << a.name << " slot " << slot;
+    const auto expect_same_map = [&](const shading::TextureMap& from, const shading::TextureMap& to, const std::string& what) {
+        ASSERT_EQ(from.texture < 0, to.texture < 0) << what;
+        if (from.texture < 0) return;
+        EXPECT_EQ(from.sampler, to.sampler) << what;
+        EXPECT_EQ(from.uv_set, to.uv_set) << what;
+        EXPECT_EQ(from.uv_from_vertex, to.uv_from_vertex) << what;
         expect_same_texels(written, from.texture, read, to.texture);
+    };
+    for (size_t slot = 0; slot < shading::kMapSlots; ++slot)
+        expect_same_map(a.maps[slot], b.maps[slot], a.name + " slot " + std::to_string(slot));
+    ASSERT_EQ(a.triplanar.has_value(), b.triplanar.has_value()) << a.name;
+    if (a.triplanar) {
+        EXPECT_EQ(a.triplanar->scale, b.triplanar->scale) << a.name;
+        EXPECT_EQ(a.triplanar->sharpness, b.triplanar->sharpness) << a.name;
     }
+    ASSERT_EQ(a.layers.has_value(), b.layers.has_value()) << a.name;
+    if (!a.layers) return;
+    EXPECT_EQ(a.layers->materials, b.layers->materials) << a.name;
+    expect_same_map(a.layers->mask, b.layers->mask, a.name + " mask");
 }
 
 void expect_same_camera(const shading::Camera& a, const shading::Camera& b) {

@@ -223,5 +223,58 @@ TEST_F(GltfMaterialsTest, ValuesOutsideTheirRangesAreRefused) {
     EXPECT_TRUE(says(error(), "materials[0].name is 5 (allowed: a string)"));
 }
 
+TEST_F(GltfMaterialsTest, ExtrasOfTheProgramMakeMaterialsTriplanarAndLayered) {
+    add_texture();
+    fixture_.add("materials", {{"extras", {{"rawtexel", {{"triplanar", {{"scale", 0.25}, {"sharpness", 7}}}}}}}});
+    fixture_.add("materials", {{"extras", {{"rawtexel", {{"triplanar", nlohmann::json::object()}}}, {"other", 1}}}});
+    const nlohmann::json mask = {{"index", 0}, {"texCoord", 1}, {"extensions", {{"KHR_texture_transform", {{"scale", {2, 3}}}}}}};
+    fixture_.add("materials", {{"extras", {{"rawtexel", {{"layers", {{"materials", {1, 0, 1}}, {"mask", mask}}}}}}}});
+    fixture_.add("materials", {{"extras", {{"rawtexel", {{"layers", {{"materials", {0, 1}}}}}}}}});
+    fixture_.add("materials", {{"extras", "anything"}});
+    const std::vector<Material> materials = scene().materials;
+    ASSERT_TRUE(materials.at(0).triplanar && materials.at(1).triplanar);
+    EXPECT_EQ(materials[0].triplanar->scale, 0.25f);
+    EXPECT_EQ(materials[0].triplanar->sharpness, 7);
+    EXPECT_EQ(materials[1].triplanar->scale, 1.0f);
+    EXPECT_EQ(materials[1].triplanar->sharpness, 4);
+    ASSERT_TRUE(materials[2].layers && materials[3].layers);
+    EXPECT_EQ(materials[2].layers->materials, (std::vector<uint32_t>{1, 0, 1}));
+    EXPECT_GE(materials[2].layers->mask.texture, 0);
+    EXPECT_EQ(materials[2].layers->mask.uv_set, 1);
+    EXPECT_EQ(materials[2].layers->mask.uv_from_vertex, (glm::mat3x2{2, 0, 0, 3, 0, 0}));
+    EXPECT_EQ(materials[3].layers->mask.texture, -1);
+    EXPECT_FALSE(materials[4].layers || materials[4].triplanar);
+}
+
+TEST_F(GltfMaterialsTest, ExtrasThatMakeNoSenseAreErrors) {
+    using nlohmann::json;
+    for (int i = 0; i < 4; ++i) fixture_.add("materials", json::object());
+    material(2)["alphaMode"] = "BLEND";
+    material(3)["extensions"]["KHR_materials_unlit"] = json::object();
+    const auto error_of = [&](const json& own) {
+        material()["extras"]["rawtexel"] = own;
+        return error();
+    };
+    const auto layered = [&](const json& materials) { return error_of({{"layers", {{"materials", materials}}}}); };
+    const std::string place = "materials[0].extras.rawtexel.";
+    EXPECT_TRUE(says(error_of({{"triplanar", {{"scale", 0}}}}), place + "triplanar.scale is 0 (allowed: a number above 0, at most 1e6)"));
+    EXPECT_TRUE(says(error_of({{"triplanar", {{"scale", 1e30}}}}), place + "triplanar.scale is 1e+30"));
+    EXPECT_TRUE(says(error_of({{"triplanar", {{"sharpness", 65}}}}), place + "triplanar.sharpness is 65"));
+    EXPECT_TRUE(says(error_of({{"triplanar", {{"sharpness", 2.5}}}}), place + "triplanar.sharpness is 2.5"));
+    EXPECT_TRUE(says(error_of({{"triplanar", 3}}), place + "triplanar is 3 (allowed: an object)"));
+    EXPECT_TRUE(says(error_of("loud"), "materials[0].extras.rawtexel is \"loud\" (allowed: an object)"));
+    EXPECT_TRUE(says(error_of({{"layers", json::object()}}), "layers has no \"materials\" (it is required)"));
+    EXPECT_TRUE(says(layered({1}), place + "layers.materials is an array of 1 (allowed: 2 to 4)"));
+    EXPECT_TRUE(says(layered({1, 1, 1, 1, 1}), "is an array of 5 (allowed: 2 to 4)"));
+    EXPECT_TRUE(says(layered({1, 9}), place + "layers.materials[1] is 9 (allowed: an index of materials, 0 to 3)"));
+    EXPECT_TRUE(says(layered({1, 0}), place + "layers.materials[1] is 0, a material with layers of its own"));
+    EXPECT_TRUE(says(layered({1, 2}), place + "layers.materials[1] is 2, a material that is not OPAQUE"));
+    EXPECT_TRUE(says(layered({1, 3}), place + "layers.materials[1] is 3, a material that is unlit (allowed: all are, or none)"));
+    EXPECT_TRUE(says(error_of({{"layers", {{"materials", {1, 1}}, {"mask", {{"index", 5}}}}}}), "layers.mask.index is 5"));
+    EXPECT_TRUE(says(error_of({{"layers", {{"materials", {1, 1}}}}, {"triplanar", json::object()}}), "has triplanar and layers"));
+    material()["alphaMode"] = "MASK";
+    EXPECT_TRUE(says(error_of({{"triplanar", json::object()}}), "materials[0].alphaMode is not OPAQUE"));
+}
+
 }  // namespace
 }  // namespace rawtexel::scenes

@@ -2,6 +2,7 @@
 #include "shading/filtering_options.h"
 
 #include "shading/render.h"
+#include "tests/shading/agreement.h"
 #include "tests/shading/scene_parts.h"
 #include "texunit/random.h"
 
@@ -60,43 +61,8 @@ class FilteringTest : public testing::Test {
     static FilteringOptions listed() { return {.order = FilterOrder::After}; }
 
     /// Many one-sample frames, each with its own numbers at the same place: their mean against `expected`, pixel by pixel.
-    struct Agreement {
-        double chi_square = 0, largest = 0;
-        size_t values = 0;
-        double per_value() const { return chi_square / double(values); }
-    };
     Agreement compare(const FilteringOptions& filtering, const Image& expected, uint32_t frames) {
-        const size_t size = expected.values.size();
-        std::vector<double> sum(size), squares(size);
-        for (uint32_t seed = 1; seed <= frames; ++seed) {
-            const Image frame = radiance(filtering, seed);
-            for (size_t i = 0; i < size; ++i) {
-                const double value = double(frame.values[i]);
-                sum[i] += value, squares[i] += value * value;
-            }
-        }
-        Agreement agreement;
-        for (size_t i = 0; i < size; ++i) {
-            const double mean = sum[i] / frames, variance = std::max(squares[i] / frames - mean * mean, 0.0) / (frames - 1);
-            const double difference = mean - double(expected.values[i]);
-            if (variance < 1e-14) {
-                EXPECT_NEAR(difference, 0, 1e-5);
-                continue;
-            }
-            const double z = difference / std::sqrt(variance);
-            agreement.chi_square += z * z;
-            agreement.largest = std::max(agreement.largest, std::abs(z));
-            ++agreement.values;
-        }
-        return agreement;
-    }
-    /// 3072 values: |z| below 6.6 and the mean of z^2 within its 1e-6 interval. Means of `frames` draws of skewed light are normal enough
-    /// for a wider bound.
-    void expect_agreement(const Agreement& agreement, const char* what) {
-        std::printf("%s: chi^2/dof %.3f, largest |z| %.2f\n", what, agreement.per_value(), agreement.largest);
-        EXPECT_LT(agreement.largest, 7.5) << what;
-        // Three channels of a pixel come from the same draws: a third of the values is independent.
-        EXPECT_NEAR(agreement.per_value(), 1, 4.9 * std::sqrt(2.0 / (double(agreement.values) / 3)) + 0.02) << what;
+        return agreement_of(expected, frames, [&](uint32_t seed) { return radiance(filtering, seed); });
     }
 
     Scene scene_;
@@ -104,12 +70,6 @@ class FilteringTest : public testing::Test {
     RenderOptions options_;
     std::unique_ptr<Executor> executor_ = make_executor(ExecutorKind::Threads, 1);
 };
-
-double largest_difference(const Image& a, const Image& b) {
-    double largest = 0;
-    for (size_t i = 0; i < a.values.size(); ++i) largest = std::max(largest, double(std::abs(a.values[i] - b.values[i])));
-    return largest;
-}
 
 TEST_F(FilteringTest, OrderChangesNothingWhereShadingIsAffine) {
     Material material = unlit(glm::vec4(0.7f, 0.9f, 1.1f, 1));
