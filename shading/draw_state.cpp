@@ -58,6 +58,7 @@ void make_plans(const FilteringOptions& filtering, MaterialState& state) {
     state.plans.taps = filtering.taps;
     state.plans.common_numbers = filtering.common_numbers;
     state.plans.noise = filtering.noise;
+    state.plans.dither = dither_of(filtering.baseline);
     state.sharing = filtering.sharing;
     const bool after = filtering.effective_order() == FilterOrder::After;
     state.plans.enumerates = after && !filtering.draws();
@@ -81,7 +82,41 @@ MaterialState make_material_state(const Scene& scene, uint32_t index, const Look
         lookup.coordinates = coordinates_of(state, map);
     }
     make_plans(overrides.filtering, state);
+    state.draws_level = draws_level(overrides.filtering.baseline);
+    const bool bumpy = !state.material->unlit && state.maps[kNormal].texture;
+    if (bumpy && corrects_gloss(overrides.filtering.baseline)) state.gloss.way = overrides.filtering.baseline;
     return state;
+}
+
+DrawStates make_material_states(const Scene& scene, const LookupOverrides& overrides) {
+    DrawStates states;
+    states.materials.reserve(scene.materials.size());
+    for (uint32_t i = 0; i < scene.materials.size(); ++i) states.materials.push_back(make_material_state(scene, i, overrides));
+    return states;
+}
+
+/// Gives every material whose gloss is corrected by moments those of its normal map.
+void add_moments(DrawStates& states) {
+    for (MaterialState& state : states.materials) {
+        if (!takes_moments(state.gloss.way)) continue;
+        const MapState& normals = state.maps[kNormal];
+        SlopeMoments& moments = states.moments[normals.texture_index];
+        if (!moments.powers) moments = make_slope_moments(*normals.texture, state.gloss.way == Baseline::Lean);
+        state.gloss.moments = {moments.powers.get(), moments.product.get()};
+    }
+}
+
+/// Bytes of the moments that the scene's normal maps ask for.
+uint64_t moment_bytes(const DrawStates& states) {
+    std::map<uint32_t, uint64_t> bytes;
+    for (const MaterialState& state : states.materials) {
+        if (!takes_moments(state.gloss.way)) continue;
+        const MapState& normals = state.maps[kNormal];
+        bytes[normals.texture_index] = slope_moment_bytes(normals.texture->shape(), state.gloss.way == Baseline::Lean);
+    }
+    uint64_t sum = 0;
+    for (const auto& [texture, of_texture] : bytes) sum += of_texture;
+    return sum;
 }
 
 /// Columns are cross products of the matrix's columns: M's cofactors, which take cross(a, b) to cross(Ma, Mb).
@@ -113,11 +148,15 @@ void override_sampler(const LookupOverrides& overrides, texunit::SamplerState& s
     override_footprint(overrides.footprint, sampler);
     sampler.precision = overrides.precision;
     sampler.estimator = overrides.filtering.estimator;
+    override_baseline(overrides.filtering.baseline, sampler);
 }
 
 std::string refusal(const Scene& scene, const LookupOverrides& overrides) {
     const FilteringOptions& filtering = overrides.filtering;
-    const DrawStates states = make_draw_states(scene, overrides);
+    const DrawStates states = make_material_states(scene, overrides);
+    if (const uint64_t bytes = moment_bytes(states); bytes > kMostMomentBytes)
+        return "baseline " + std::string(to_string(filtering.baseline)) + ": moments of the normal maps take " +
+               std::to_string(bytes >> 20) + " MiB (allowed: " + std::to_string(kMostMomentBytes >> 20) + ")";
     for (const MaterialState& state : states.materials) {
         const std::string material = "material '" + state.material->name + "': ";
         for (const MapState& map : state.maps) {
@@ -137,9 +176,8 @@ std::string refusal(const Scene& scene, const LookupOverrides& overrides) {
 }
 
 DrawStates make_draw_states(const Scene& scene, const LookupOverrides& overrides) {
-    DrawStates states;
-    states.materials.reserve(scene.materials.size());
-    for (uint32_t i = 0; i < scene.materials.size(); ++i) states.materials.push_back(make_material_state(scene, i, overrides));
+    DrawStates states = make_material_states(scene, overrides);
+    add_moments(states);
     states.draws.reserve(scene.instances.size());
     uint32_t triangle_id = 0;
     for (const Instance& instance : scene.instances) {

@@ -1,6 +1,7 @@
 // How maps become light: filtered before shading or after it, with which estimator, from which numbers.
 #pragma once
 
+#include "shading/baseline.h"
 #include "texunit/estimator.h"
 #include "texunit/noise.h"
 
@@ -32,8 +33,9 @@ struct FilteringOptions {
     /// Whether the draws of either sign, of kernels with negative lobes, use the same numbers.
     bool common_numbers = false;
     texunit::Noise noise = texunit::Noise::White;  ///< of the draws
+    Baseline baseline = Baseline::None;            ///< goes with All and its own order alone
 
-    bool draws() const { return estimator != texunit::Estimator::All; }
+    bool draws() const { return estimator != texunit::Estimator::All || is_dither(baseline); }
     FilterOrder effective_order() const { return order.value_or(draws() ? FilterOrder::After : FilterOrder::Before); }
 };
 
