@@ -95,6 +95,7 @@ std::vector<std::pair<std::string, std::string>> print_choices(const LookupOptio
             {"shadow-taps", std::string(to_string(lookup.filtering.shadow_taps))},
             {"noise", std::string(to_string(lookup.filtering.noise))},
             {"signed-numbers", lookup.filtering.common_numbers ? "common" : "independent"},
+            {"baseline", std::string(to_string(lookup.filtering.baseline))},
             {"precision", std::string(to_string(lookup.precision))},
             {"mip-storage", print(lookup.mip_storage)},
             {"bc-rounding", std::string(to_string(lookup.files.bc_rounding))}};

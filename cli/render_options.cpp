@@ -1,5 +1,6 @@
 #include "cli/render_options.h"
 
+#include "cli/baseline_options.h"
 #include "cli/filtering_options.h"
 #include "cli/footprint_options.h"
 #include "cli/limits.h"
@@ -269,6 +270,7 @@ void declare_render_options(CommandLine& line, RenderRequest& request) {
     declare_filtering_options(line, request.lookup.filtering);
     line.option("--policy", "FILE.json", "order, estimator, filter and mip of single materials and textures (docs/filters.md)",
                 [&](const std::string& text) { request.policy = text; });
+    declare_baseline_option(line, request.lookup.filtering);
     declare_sample_options(line, request.samples);
     declare_tone_options(line, request.tone);
     declare_fetch_options(line, request.fetches);
@@ -278,6 +280,7 @@ void declare_render_options(CommandLine& line, RenderRequest& request) {
 void settle(RenderRequest& request) {
     check_crop(request.crop, request.image_size());
     check_view(request.view);
+    check_baseline(request.lookup);
     check_filtering(request.lookup.filtering, request.lookup.filter);
     check_hybrid_bias(request.lookup.footprint, request.lookup.filtering);
     if (request.light.peer_shading) preset_peer_shading(request);

@@ -24,11 +24,33 @@ struct ShadingPoint {
     Vector3<V> f0;       ///< reflectance at normal incidence
     Vector3<V> diffuse;  ///< (1 - metallic) base / pi
     V occlusion;
+    bool stretched;  ///< the lobe has `axis` instead of alpha (SurfaceWave::axis)
+    Vector3<V> axis[2];
+    V axes_area;  ///< |axis[0] x axis[1]|: alpha^2 of a round lobe
 };
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V smith_term(D d, V n_dot, V alpha2) {
     return hn::Sqrt(hn::Add(hn::Mul(hn::Mul(n_dot, n_dot), hn::Sub(hn::Set(d, 1.0f), alpha2)), alpha2));
+}
+
+/// The same of a stretched lobe, whose alpha is that towards `direction` (Heitz 2014 section 5.4).
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V smith_term(D d, const ShadingPoint<V>& p, const Vector3<V>& direction, V n_dot) {
+    if (!p.stretched) return smith_term(d, n_dot, p.alpha2);
+    const V a = dot(p.axis[0], direction), b = dot(p.axis[1], direction);
+    return hn::Sqrt(hn::Add(hn::Mul(n_dot, n_dot), hn::Add(hn::Mul(a, a), hn::Mul(b, b))));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void load_axes(D d, const SurfaceWave& surface, size_t lane, ShadingPoint<V>& p) {
+    p.stretched = surface.stretched;
+    const V zero = hn::Zero(d);
+    p.axis[0] = p.axis[1] = {zero, zero, zero};
+    p.axes_area = zero;
+    if (!p.stretched) return;
+    for (int k = 0; k < 2; ++k) p.axis[k] = load3(d, surface.axis[k], lane);
+    p.axes_area = hn::Abs(dot(cross(p.axis[0], p.axis[1]), p.normal));
 }
 
 template <class D, class V = hn::Vec<D>>
@@ -45,7 +67,8 @@ HWY_INLINE ShadingPoint<V> load_point(D d, const SurfaceWave& surface, size_t la
     const V alpha = hn::Max(hn::Mul(roughness, roughness), hn::Set(d, kMinAlpha));
     p.roughness = hn::Max(roughness, hn::Set(d, kMinRoughness));
     p.alpha2 = hn::Mul(alpha, alpha);
-    p.smith_view = smith_term(d, p.n_dot_v, p.alpha2);
+    load_axes(d, surface, lane, p);
+    p.smith_view = smith_term(d, p, p.view, p.n_dot_v);
 
     // F0 = lerp(0.04, base, metallic): dielectrics keep their colour in the diffuse term, metals in the reflection.
     const Vector3<V> base = load3(d, surface.base_color, lane);
@@ -78,13 +101,23 @@ HWY_INLINE Vector3<V> brdf_cosine(D d, const ShadingPoint<V>& p, const Vector3<V
     const V v_dot_h = hn::Max(dot(p.view, half), zero);
 
     // D = a^2 / (pi ((n.h)^2 (a^2 - 1) + 1)^2), written with |n x h|^2 = 1 - (n.h)^2, which does not cancel at the highlight's peak.
+    // A stretched lobe's is q^3 / (pi ((axis[0].t)^2 + (axis[1].t)^2 + (q n.h)^2)^2), t = n x h, q the axes' area.
     const Vector3<V> tilt = cross(p.normal, half);
-    const V lobe = hn::Add(dot(tilt, tilt), hn::Mul(hn::Mul(n_dot_h, n_dot_h), p.alpha2));
+    const V peak = hn::Mul(n_dot_h, n_dot_h);
+    V lobe, scaled;
+    if (p.stretched) {
+        const V a = dot(p.axis[0], tilt), b = dot(p.axis[1], tilt), area2 = hn::Mul(p.axes_area, p.axes_area);
+        lobe = hn::Add(hn::Add(hn::Mul(a, a), hn::Mul(b, b)), hn::Mul(peak, area2));
+        scaled = hn::Mul(area2, p.axes_area);
+    } else {
+        lobe = hn::Add(dot(tilt, tilt), hn::Mul(peak, p.alpha2));
+        scaled = p.alpha2;
+    }
     const V spread = hn::IfThenElse(hn::Gt(n_dot_h, zero), lobe, one);
-    const V distribution = hn::Div(hn::Mul(p.alpha2, hn::Set(d, kInversePi)), hn::Mul(spread, spread));
+    const V distribution = hn::Div(hn::Mul(scaled, hn::Set(d, kInversePi)), hn::Mul(spread, spread));
 
     // V = 0.5 / (n.l sqrt((n.v)^2 (1 - a^2) + a^2) + n.v sqrt((n.l)^2 (1 - a^2) + a^2)), Heitz 2014 eq. 99.
-    const V smith_light = smith_term(d, n_dot_l, p.alpha2);
+    const V smith_light = smith_term(d, p, light, n_dot_l);
     const V smith = hn::Add(hn::Add(hn::Mul(n_dot_l, p.smith_view), hn::Mul(p.n_dot_v, smith_light)), hn::Set(d, 1e-7f));
     const V specular = hn::Div(hn::Mul(distribution, hn::Set(d, 0.5f)), smith);
 

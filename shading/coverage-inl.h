@@ -71,6 +71,7 @@ class AlphaCoverage {
             texunit::WaveCoordinates& at = coordinates_[map.coordinates];
             interpolate_coordinates(material.coordinates[size_t(map.coordinates)], mesh, corners, weights_, at);
             if (draws(material)) return find_drawn_alpha(material, candidate, mask);
+            if (material.draws_level) draw_level(material, candidate, mask, at);
             look_up(map, at, mask, maps_[kBaseColor], nullptr);
         }
         HWY_NAMESPACE::find_alpha(*material.material, map.texture ? &maps_[kBaseColor].channel[3] : nullptr, vertex_, alpha_);
@@ -86,12 +87,24 @@ class AlphaCoverage {
             hn::Store(interpolate<4>(corners, load_weights(weights_, i), &mesh.colors[0].a, i), d, vertex_alpha_.lane + i);
     }
 
+    /// The address of the numbers, one surface for all lanes; `surface` has room for 32.
+    void begin_taps(const MaterialState& material, const raster::CandidateWave& candidate, WaveMask mask, uint32_t* surface) {
+        std::fill_n(surface, texunit::kWaveLanes, 1 + candidate.triangle->triangle_id);
+        taps_.begin({&material, coordinates_, mask, candidate.x, candidate.y, sample_, seed_, surface});
+    }
+
+    HWY_NOINLINE void draw_level(const MaterialState& material, const raster::CandidateWave& candidate, WaveMask mask,
+                                 texunit::WaveCoordinates& at) {
+        alignas(64) uint32_t surface[texunit::kWaveLanes];
+        begin_taps(material, candidate, mask, surface);
+        draw_levels(taps_, &at, 1);
+    }
+
     /// alpha of draws that are averaged, or the share of the raw texels that covers.
     HWY_NOINLINE void find_drawn_alpha(const MaterialState& material, const raster::CandidateWave& candidate, WaveMask mask) {
         const TapPlans& plans = material.plans;
         alignas(64) uint32_t surface[texunit::kWaveLanes];
-        std::fill_n(surface, texunit::kWaveLanes, 1 + candidate.triangle->triangle_id);
-        taps_.begin({&material, coordinates_, mask, candidate.x, candidate.y, sample_, seed_, surface});
+        begin_taps(material, candidate, mask, surface);
         texunit::WaveFloat& texel = maps_[kBaseColor].channel[3];
         if (plans.averaged.holds(kBaseColor)) {
             average_taps(taps_, MaterialTaps::only(plans.averaged, kBaseColor), maps_);

@@ -208,6 +208,7 @@ class DemandedLookups {
     }
 
     void tell_maps(const MaterialState& material) {
+        if (material.draws_level) draw_levels_of(material);
         for (int slot = 0; slot < kMapSlots; ++slot) {
             const MapState& map = material.maps[size_t(slot)];
             if (map.texture && lanes_of(slot) != 0 && !draws(material, slot)) listener_.lookup(lookup_of(map, slot));
@@ -225,8 +226,8 @@ class DemandedLookups {
         return material.plans.averaged.holds(slot) || (material.plans.shaded.holds(slot) && !material.plans.enumerates);
     }
 
-    HWY_NOINLINE void tell_draws(const MaterialState& material) {
-        alignas(64) uint32_t surface[texunit::kWaveLanes];
+    /// Begins the taps of the asking fragments; `surface` has room for 32.
+    void begin_taps(const MaterialState& material, uint32_t* surface) {
         const bool layered = material.material->alpha_mode != AlphaMode::Opaque;
         for (WaveMask lanes = layered ? asking_.base_color : 0; lanes != 0; lanes &= lanes - 1) {
             const int lane = std::countr_zero(lanes);
@@ -234,6 +235,17 @@ class DemandedLookups {
         }
         taps_.begin(
             {&material, coordinates_, asking_.base_color, wave_.x, wave_.y, wave_.sample, inputs_.seed, layered ? surface : nullptr});
+    }
+
+    HWY_NOINLINE void draw_levels_of(const MaterialState& material) {
+        alignas(64) uint32_t surface[texunit::kWaveLanes];
+        begin_taps(material, surface);
+        draw_levels(taps_, coordinates_, material.coordinate_count);
+    }
+
+    HWY_NOINLINE void tell_draws(const MaterialState& material) {
+        alignas(64) uint32_t surface[texunit::kWaveLanes];
+        begin_taps(material, surface);
         begun_ = 0;
         for (const TapPlan* plan : {&material.plans.averaged, &material.plans.shaded}) {
             if (plan->empty() || (plan == &material.plans.shaded && material.plans.enumerates)) continue;

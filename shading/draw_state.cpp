@@ -70,6 +70,7 @@ void make_plans(const Scene& scene, const LookupOverrides& overrides, MaterialSt
     plans.taps = overrides.filtering.taps;
     plans.common_numbers = overrides.filtering.common_numbers;
     plans.noise = overrides.filtering.noise;
+    plans.dither = dither_of(overrides.filtering.baseline);
     state.sharing = overrides.filtering.sharing;
     for (int slot = 0; slot < kMapSlots; ++slot) {
         if (!state.maps[size_t(slot)].texture) continue;
@@ -128,6 +129,9 @@ MaterialState make_material_state(const Scene& scene, uint32_t index, const Look
         lookup.coordinates = coordinates_of(state, map);
     }
     make_plans(scene, overrides, state);
+    state.draws_level = draws_level(overrides.filtering.baseline);
+    const bool bumpy = !state.material->unlit && state.maps[kNormal].texture;
+    if (bumpy && corrects_gloss(overrides.filtering.baseline)) state.gloss.way = overrides.filtering.baseline;
     return state;
 }
 
@@ -139,6 +143,38 @@ void link_layers(std::vector<MaterialState>& states) {
         assert(layers.size() >= kFewestLayers && layers.size() <= kMostLayers);
         for (const uint32_t layer : layers) state.layers[size_t(state.layer_count++)] = &states[layer];
     }
+}
+
+DrawStates make_material_states(const Scene& scene, const LookupOverrides& overrides) {
+    DrawStates states;
+    states.materials.reserve(scene.materials.size());
+    for (uint32_t i = 0; i < scene.materials.size(); ++i) states.materials.push_back(make_material_state(scene, i, overrides));
+    link_layers(states.materials);
+    return states;
+}
+
+/// Gives every material whose gloss is corrected by moments those of its normal map.
+void add_moments(DrawStates& states) {
+    for (MaterialState& state : states.materials) {
+        if (!takes_moments(state.gloss.way)) continue;
+        const MapState& normals = state.maps[kNormal];
+        SlopeMoments& moments = states.moments[normals.texture_index];
+        if (!moments.powers) moments = make_slope_moments(*normals.texture, state.gloss.way == Baseline::Lean);
+        state.gloss.moments = {moments.powers.get(), moments.product.get()};
+    }
+}
+
+/// Bytes of the moments that the scene's normal maps ask for.
+uint64_t moment_bytes(const DrawStates& states) {
+    std::map<uint32_t, uint64_t> bytes;
+    for (const MaterialState& state : states.materials) {
+        if (!takes_moments(state.gloss.way)) continue;
+        const MapState& normals = state.maps[kNormal];
+        bytes[normals.texture_index] = slope_moment_bytes(normals.texture->shape(), state.gloss.way == Baseline::Lean);
+    }
+    uint64_t sum = 0;
+    for (const auto& [texture, of_texture] : bytes) sum += of_texture;
+    return sum;
 }
 
 /// Columns are cross products of the matrix's columns: M's cofactors, which take cross(a, b) to cross(Ma, Mb).
@@ -171,12 +207,19 @@ void override_sampler(const LookupOverrides& overrides, texunit::SamplerState& s
     override_footprint(overrides.footprint, sampler);
     sampler.precision = overrides.precision;
     sampler.estimator = overrides.filtering.estimator;
+    override_baseline(overrides.filtering.baseline, sampler);
 }
 
 std::string refusal(const Scene& scene, const LookupOverrides& overrides) {
-    const DrawStates states = make_draw_states(scene, overrides);
+    const FilteringOptions& filtering = overrides.filtering;
+    const DrawStates states = make_material_states(scene, overrides);
+    if (const uint64_t bytes = moment_bytes(states); bytes > kMostMomentBytes)
+        return "baseline " + std::string(to_string(filtering.baseline)) + ": moments of the normal maps take " +
+               std::to_string(bytes >> 20) + " MiB (allowed: " + std::to_string(kMostMomentBytes >> 20) + ")";
     for (const MaterialState& state : states.materials) {
         const std::string material = "material '" + state.material->name + "': ";
+        if (filtering.baseline != Baseline::None && state.branches())
+            return material + "baseline " + std::string(to_string(filtering.baseline)) + " knows no planes and layers";
         for (const MapState& map : state.maps) {
             if (!map.texture) continue;
             for (const texunit::Kernel& kernel : {map.sampler.magnify, map.sampler.minify}) {
@@ -195,10 +238,8 @@ std::string refusal(const Scene& scene, const LookupOverrides& overrides) {
 }
 
 DrawStates make_draw_states(const Scene& scene, const LookupOverrides& overrides) {
-    DrawStates states;
-    states.materials.reserve(scene.materials.size());
-    for (uint32_t i = 0; i < scene.materials.size(); ++i) states.materials.push_back(make_material_state(scene, i, overrides));
-    link_layers(states.materials);
+    DrawStates states = make_material_states(scene, overrides);
+    add_moments(states);
     states.draws.reserve(scene.instances.size());
     uint32_t triangle_id = 0;
     for (const Instance& instance : scene.instances) {

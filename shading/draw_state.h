@@ -5,10 +5,12 @@
 #include "shading/filtering_options.h"
 #include "shading/footprint_options.h"
 #include "shading/scene.h"
+#include "shading/slope_moments.h"
 #include "shading/tap_plan.h"
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -33,6 +35,12 @@ struct MapState {
     int coordinates = 0;  ///< in MaterialState::coordinates
 };
 
+/// A baseline that corrects gloss for what filtering takes from the normal map.
+struct GlossState {
+    Baseline way = Baseline::None;               ///< None where the material has nothing to correct
+    std::array<texunit::Texture*, 2> moments{};  ///< SlopeMoments::powers and ::product, null where the way has none
+};
+
 struct MaterialState {
     const Material* material = nullptr;
     uint32_t index = 0;  ///< in Scene::materials
@@ -49,6 +57,8 @@ struct MaterialState {
     MapState mask;  ///< of the layers' weights
 
     bool branches() const { return layer_count > 0 || material->triplanar.has_value(); }
+    bool draws_level = false;  ///< shading/baseline.h
+    GlossState gloss;
 };
 
 struct DrawState {
@@ -80,6 +90,7 @@ std::string refusal(const Scene& scene, const LookupOverrides& overrides);
 
 /// One draw per instance, in scene order.
 struct DrawStates {
+    std::map<uint32_t, SlopeMoments> moments;  ///< of normal maps, by their index in Scene::textures
     std::vector<MaterialState> materials;
     std::vector<DrawState> draws;
 };

@@ -1,6 +1,7 @@
 // How maps become light: filtered before shading or after it, with which estimator, from which numbers.
 #pragma once
 
+#include "shading/baseline.h"
 #include "texunit/estimator.h"
 #include "texunit/noise.h"
 
@@ -41,8 +42,9 @@ struct FilteringOptions {
     texunit::Noise noise = texunit::Noise::White;  ///< of the draws
     std::optional<Blend> blend = std::nullopt;     ///< nullopt: Draw with an estimator that draws, else All
     ShadowTaps shadow_taps = ShadowTaps::All;
+    Baseline baseline = Baseline::None;  ///< goes with All and its own order alone
 
-    bool draws() const { return estimator != texunit::Estimator::All; }
+    bool draws() const { return estimator != texunit::Estimator::All || is_dither(baseline); }
     FilterOrder effective_order() const { return order.value_or(draws() ? FilterOrder::After : FilterOrder::Before); }
     Blend effective_blend() const { return blend.value_or(draws() ? Blend::Draw : Blend::All); }
 };

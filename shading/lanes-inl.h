@@ -49,6 +49,11 @@ HWY_INLINE void store_value(float value, texunit::WaveMask mask, WaveFloat& out)
 /// A vector in space per lane.
 using SpaceVector = Vector3<FloatVector>;
 
+HWY_INLINE SpaceVector load_rgb(const texunit::WaveColor& color, size_t i) {
+    const FloatLanes d;
+    return {hn::Load(d, color.channel[0].lane + i), hn::Load(d, color.channel[1].lane + i), hn::Load(d, color.channel[2].lane + i)};
+}
+
 /// Unit vector along `a`, or `fallback` where `a` is zero or not finite. No length over- or underflows.
 HWY_INLINE SpaceVector unit_or(const SpaceVector& a, const SpaceVector& fallback) {
     const FloatLanes d;

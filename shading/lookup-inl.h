@@ -25,6 +25,7 @@ HWY_NOINLINE inline void look_up(const MapState& map, const texunit::WaveCoordin
 /// Filtered values of a material's maps; those without a texture are left as they were.
 struct MapColors {
     texunit::WaveColor slot[kMapSlots];
+    texunit::WaveColor moments[2];  ///< as GlossState::moments
 };
 
 /// Those that no plan draws. `lod`: of the base colour's lookup, where asked for.
@@ -33,6 +34,12 @@ HWY_INLINE void look_up_maps(const MaterialState& material, const FragmentWave& 
         const MapState& map = material.maps[size_t(slot)];
         if (!map.texture || material.plans.averaged.holds(slot) || material.plans.shaded.holds(slot)) continue;
         look_up(map, fragment.coordinates[map.coordinates], mask, out.slot[slot], slot == kBaseColor ? lod : nullptr);
+    }
+    for (size_t k = 0; k < 2; ++k) {
+        if (!material.gloss.moments[k]) continue;
+        MapState map = material.maps[kNormal];
+        map.texture = material.gloss.moments[k];
+        look_up(map, fragment.coordinates[map.coordinates], mask, out.moments[k], nullptr);
     }
 }
 

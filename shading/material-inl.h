@@ -8,16 +8,13 @@
 
 #include "shading/draw_state.h"
 #include "shading/fragment.h"
+#include "shading/gloss-inl.h"
 #include "shading/lanes-inl.h"
+#include "shading/lookup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rawtexel::shading {
 namespace HWY_NAMESPACE {
-
-HWY_INLINE SpaceVector load_rgb(const texunit::WaveColor& color, size_t i) {
-    const FloatLanes d;
-    return {hn::Load(d, color.channel[0].lane + i), hn::Load(d, color.channel[1].lane + i), hn::Load(d, color.channel[2].lane + i)};
-}
 
 /// Factor times texture times vertex colour, not negative.
 HWY_INLINE void find_base_color(const DrawState& draw, const FragmentWave& fragment, const texunit::WaveColor& texel, SurfaceWave& out) {
@@ -103,6 +100,8 @@ HWY_INLINE void find_surface(const DrawState& draw, const FragmentWave& fragment
     find_normals(state, fragment, maps.slot[kNormal], out);
     if (state.material->unlit) return;
     find_metallic_roughness(state, maps.slot[kMetallicRoughness], out);
+    out.stretched = false;
+    if (state.gloss.way != Baseline::None) correct_gloss(state, fragment, maps, out);
     find_occlusion(state, maps.slot[kOcclusion], out);
     find_emission(state, maps.slot[kEmissive], out);
     out.position = fragment.position;

@@ -13,6 +13,7 @@
 #include "texunit/shared_draw.h"
 
 #include <bit>
+#include <cmath>
 #include <functional>
 
 HWY_BEFORE_NAMESPACE();
@@ -99,6 +100,12 @@ class MaterialTaps {
         }
     }
 
+    /// Numbers of the level that is drawn for all maps, where a material draws levels alone.
+    const WaveFloat& level_numbers() {
+        find_numbers(0, 0);
+        return positive_.level;
+    }
+
     const MaterialState& material() const { return *fragments_.material; }
     WaveMask lanes() const { return fragments_.lanes; }
 
@@ -117,6 +124,8 @@ class MaterialTaps {
 
     /// Numbers of draw n; `own`: 0, or which map's own they are.
     HWY_NOINLINE void find_numbers(int n, uint32_t own) {
+        if (material().plans.dither != texunit::Dither::None)
+            return dither_numbers(material().plans.dither, fragments_.x, fragments_.y, positive_);
         texunit::RandomAddress address{
             .x = uint32_t(fragments_.x),
             .y = uint32_t(fragments_.y),
@@ -162,6 +171,19 @@ class MaterialTaps {
     texunit::WaveCoordinates filled_[kMapSlots];
     texunit::DrawNumbers positive_{}, negative_{};
 };
+
+/// Scales footprints by 2^(U - 1/2), so that their nearest level is one of the two that trilinear filtering mixes, drawn with its weight.
+/// `taps` have begun; `at`: coordinates of theirs.
+HWY_NOINLINE inline void draw_levels(MaterialTaps& taps, texunit::WaveCoordinates* at, int count) {
+    const WaveFloat& number = taps.level_numbers();
+    WaveFloat factor;
+    for (int lane = 0; lane < texunit::kWaveLanes; ++lane) factor[lane] = std::exp2(number[lane] - 0.5f);
+    const FloatLanes d;
+    for (int k = 0; k < count; ++k)
+        for (WaveFloat* derivative : {&at[k].dudx, &at[k].dvdx, &at[k].dudy, &at[k].dvdy})
+            for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d))
+                hn::Store(hn::Mul(hn::Load(d, derivative->lane + i), hn::Load(d, factor.lane + i)), d, derivative->lane + i);
+}
 
 /// The texels of a tap for the maps of its plan; other maps are left as they were.
 HWY_INLINE void read_tap(const MaterialState& material, const TapPlan& plan, const texunit::SharedTap& tap, texunit::WaveColor* maps) {

@@ -23,6 +23,10 @@ struct SurfaceWave {
     WaveVector normal;            ///< unit shading normal, on the viewer's side of a double-sided surface
     WaveVector geometric_normal;  ///< unit, of the triangle, on the same side
     WaveVector view;              ///< unit, towards the eye
+    /// Punctual lights are reflected by an anisotropic lobe, of which `roughness` is the mean. Its axes lie across the normal, and the lobe
+    /// spreads by alpha^2 = (axis[0].d)^2 + (axis[1].d)^2 towards a unit d across the normal.
+    bool stretched = false;
+    WaveVector axis[2];
 };
 
 }  // namespace rawtexel::shading

@@ -28,6 +28,7 @@ struct TapPlans {
     int taps = 1;             ///< draws
     bool common_numbers = false;
     texunit::Noise noise = texunit::Noise::White;
+    texunit::Dither dither = texunit::Dither::None;  ///< whose numbers draw instead of the noise's
 
     bool draws() const { return !averaged.empty() || !shaded.empty(); }
 };

@@ -344,6 +344,7 @@ class TileRenderer {
         const MaterialState& material = *draw.material;
         WaveFloat lod = {};
         const bool wants_lod = first_sample_ && inputs_.planes.lod >= 0;
+        if (material.draws_level) draw_levels_of(draw, pass);
         look_up_maps(material, fragment_, pass, maps_, wants_lod ? &lod : nullptr);
         if (material.plans.draws()) {
             shade_taps(draw, pass);
@@ -394,16 +395,29 @@ class TileRenderer {
         light_surface(*draw.material->material, lanes);
     }
 
-    /// Draws of maps that are averaged before shading; raw texels of the others, shaded and then added up.
-    HWY_NOINLINE void shade_taps(const DrawState& draw, WaveMask pass) {
+    /// Begins the taps of lanes that see one draw; `surface` has room for 32.
+    HWY_NOINLINE void begin_taps(const DrawState& draw, WaveMask pass, uint32_t* surface) {
         const MaterialState& material = *draw.material;
-        alignas(64) uint32_t surface[texunit::kWaveLanes];
         const bool layered = material.material->alpha_mode != AlphaMode::Opaque;
         for (WaveMask lanes = layered ? pass : 0; lanes != 0; lanes &= lanes - 1) {
             const int lane = std::countr_zero(lanes);
             surface[lane] = 1 + frame_.triangle(wave_.setup_index[lane]).triangle_id;
         }
         taps_.begin({&material, fragment_.coordinates, pass, wave_.x, wave_.y, wave_.sample, inputs_.seed, layered ? surface : nullptr});
+    }
+
+    HWY_NOINLINE void draw_levels_of(const DrawState& draw, WaveMask pass) {
+        alignas(64) uint32_t surface[texunit::kWaveLanes];
+        begin_taps(draw, pass, surface);
+        draw_levels(taps_, fragment_.coordinates, draw.material->coordinate_count);
+    }
+
+    /// Draws of maps that are averaged before shading; raw texels of the others, shaded and then added up.
+    HWY_NOINLINE void shade_taps(const DrawState& draw, WaveMask pass) {
+        const MaterialState& material = *draw.material;
+        alignas(64) uint32_t surface[texunit::kWaveLanes];
+        const bool layered = material.material->alpha_mode != AlphaMode::Opaque;
+        begin_taps(draw, pass, surface);
         if (watched()) taps_.hear = [&](const HeardTap& heard) { tell_tapped(draw, pass, heard); };
         if (!material.plans.averaged.empty()) average_taps(taps_, material.plans.averaged, maps_.slot);
         if (material.plans.shaded.empty()) {

@@ -3,6 +3,7 @@
 #include "cli/counters.h"
 #include "cli/option_values.h"
 #include "scenes/builtin.h"
+#include "shading/baseline.h"
 #include "texunit/estimator.h"
 #include "texunit/format.h"
 #include "texunit/kernel.h"
@@ -38,12 +39,13 @@ Entries filter_entries() {
 }
 
 Entries entries_for(const std::string& subject) {
-    switch (parse_word("list", subject, {"scenes", "filters", "estimators", "noises", "formats", "counters"})) {
+    switch (parse_word("list", subject, {"scenes", "filters", "estimators", "noises", "baselines", "formats", "counters"})) {
         case 0: return entries_of(scenes::builtin_scenes());
         case 1: return filter_entries();
         case 2: return entries_of(texunit::all_estimators());
         case 3: return entries_of(texunit::all_noises());
-        case 4: return entries_of(texunit::all_formats());
+        case 4: return entries_of(shading::all_baselines());
+        case 5: return entries_of(texunit::all_formats());
         default: return entries_of(all_counters());
     }
 }
@@ -68,13 +70,13 @@ std::string print_lines(const Entries& entries) {
 class ListCommand : public Command {
   public:
     std::string_view name() const override { return "list"; }
-    std::string_view usage() const override { return "list scenes|filters|estimators|noises|formats|counters [--json]"; }
+    std::string_view usage() const override { return "list scenes|filters|estimators|noises|baselines|formats|counters [--json]"; }
     std::string_view summary() const override {
-        return "Lists built-in scenes, texture filters, estimators, noises, texel formats or counters, one a line.";
+        return "Lists built-in scenes, texture filters, estimators, noises, baselines, texel formats or counters, one a line.";
     }
 
     void declare(CommandLine& line) override {
-        line.arguments("SUBJECT", "scenes, filters, estimators, noises, formats or counters", 1, 1, words_);
+        line.arguments("SUBJECT", "scenes, filters, estimators, noises, baselines, formats or counters", 1, 1, words_);
         line.flag("--json", "an array of objects with \"name\" and \"description\"", json_);
     }
 
