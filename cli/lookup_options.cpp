@@ -88,7 +88,7 @@ std::vector<std::pair<std::string, std::string>> print_choices(const LookupOptio
             {"footprint", std::string(to_string(footprint.area))},
             {"hybrid-bias", footprint.hybrid_bias ? print_number(*footprint.hybrid_bias) : "none"},
             {"estimator", std::string(to_string(lookup.filtering.estimator))},
-            {"taps", std::to_string(lookup.filtering.taps)},
+            {"draws", std::to_string(lookup.filtering.taps)},
             {"order", std::string(to_string(lookup.filtering.effective_order()))},
             {"random", std::string(to_string(lookup.filtering.sharing))},
             {"blend", std::string(to_string(lookup.filtering.effective_blend()))},

@@ -80,11 +80,15 @@ TEST(LookupOptions, SayWhatIsWrongAndWhatIsAllowed) {
 TEST(LookupOptions, ChoicesAreToldAsTheyAreSpelled) {
     LookupOptions lookup = parsed({"--filter", "gaussian:0.8", "--precision", "gpu", "--bc-rounding", "nvidia"});
     lookup.footprint = {.probes = 8, .probe_variance = 0.25f, .lod_rule = texunit::LodRule::Exact, .lod_bias = -0.5f};
+    lookup.filtering.estimator = texunit::Estimator::Reservoir;
+    lookup.filtering.taps = 3;
+    lookup.filtering.noise = texunit::Noise::Stbn;
     std::string told;
     for (const auto& [name, choice] : print_choices(lookup)) told += name + "=" + choice + " ";
     EXPECT_EQ(told,
               "filter=gaussian:0.8 mip=scene aniso=8:0.25 ewa=none lod-rule=exact lod-bias=-0.5 derivatives=analytic footprint=pixel "
-              "precision=gpu mip-storage=source bc-rounding=nvidia ");
+              "hybrid-bias=none estimator=reservoir draws=3 order=after random=shared blend=draw shadow-taps=all noise=stbn "
+              "signed-numbers=independent baseline=none precision=gpu mip-storage=source bc-rounding=nvidia ");
 }
 
 /// The quad's image at 40x40 pixels, some 0.6 pixels a texel, its edges out of sight.
