@@ -9,6 +9,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace rawtexel::shading {
@@ -166,6 +167,20 @@ TEST_F(BranchesTest, ADrawnPlaneDemandsExactlyAThird) {
         options_.fetches.model = model;
         EXPECT_EQ(texels_per_sample(kDrawnTexels), 3 * texels_per_sample(kDrawn)) << to_string(model);
     }
+}
+
+/// Policies may shade the taps of one material where all others are filtered first.
+TEST_F(BranchesTest, APolicyShadesThePlanesOfItsMaterial) {
+    Material material = triplanar_material();
+    add_object(scene_, leaning_quad(), material);
+    const Image listed = radiance(kListed);
+    scene_.materials[0].policy.order = FilterOrder::After;
+    EXPECT_LT(largest_difference(radiance({}), listed), 1e-6);
+    scene_.meshes.clear(), scene_.instances.clear();
+    const uint32_t plain = add_material(mapped_material(16, 5));
+    const Material mixed = mix({plain, 0}, add_texture(8, 31));
+    add_object(scene_, leaning_quad(), mixed);
+    EXPECT_TRUE(std::ranges::any_of(radiance({}).values, [](float v) { return v > 0; }));
 }
 
 // --- layers
