@@ -77,7 +77,6 @@ void add_ground(SceneAssembly& assembly) {
 
 void add_boulders(SceneAssembly& assembly) {
     const uint32_t rock = assembly.add_surface_material("limestone", limestone());
-    assembly.material(rock).base_color = {0.5f, 0.46f, 0.4f, 1.0f};
     assembly.material(rock).triplanar = shading::Triplanar{0.5f, 4};
     for (int i = 0; i < 3; ++i) {
         const StoneStyle style{

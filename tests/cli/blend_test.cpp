@@ -21,8 +21,9 @@ using Words = std::vector<std::string>;
 /// texels_requested of every texture of the standing stones.
 std::vector<uint64_t> stone_texels(const Words& more) {
     const TemporaryFolder folder;
-    Words words{"render", "triplanar", "-o",      folder / "a.png", "--progress",    "never", "--size",  "48x32",
-                "--spp",  "2",         "--light", "0.2,-0.3,-1,3",  "--environment", "none",  "--stats", folder / "stats.json"};
+    Words words{"render",  "triplanar", "-o",      folder / "a.png", "--progress",    "never", "--size",  "48x32",
+                "--spp",   "2",         "--light", "0.2,-0.3,-1,3",  "--environment", "none",  "--stats", folder / "stats.json",
+                "--cache", "l1=1K:2"};
     words.insert(words.end(), more.begin(), more.end());
     const test::Outcome outcome = run(words);
     EXPECT_EQ(outcome.code, kDone) << outcome.err;
