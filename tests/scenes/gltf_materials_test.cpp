@@ -259,8 +259,8 @@ TEST_F(GltfMaterialsTest, ExtrasThatMakeNoSenseAreErrors) {
     const std::string place = "materials[0].extras.rawtexel.";
     EXPECT_TRUE(says(error_of({{"triplanar", {{"scale", 0}}}}), place + "triplanar.scale is 0 (allowed: a number above 0, at most 1e6)"));
     EXPECT_TRUE(says(error_of({{"triplanar", {{"scale", 1e30}}}}), place + "triplanar.scale is 1e+30"));
-    EXPECT_TRUE(says(error_of({{"triplanar", {{"sharpness", 65}}}}), place + "triplanar.sharpness is 65"));
-    EXPECT_TRUE(says(error_of({{"triplanar", {{"sharpness", 2.5}}}}), place + "triplanar.sharpness is 2.5"));
+    EXPECT_TRUE(says(error_of({{"triplanar", {{"scale", 1}, {"sharpness", 65}}}}), place + "triplanar.sharpness is 65"));
+    EXPECT_TRUE(says(error_of({{"triplanar", {{"scale", 1}, {"sharpness", 2.5}}}}), place + "triplanar.sharpness is 2.5"));
     EXPECT_TRUE(says(error_of({{"triplanar", json::object()}}), "triplanar has no \"scale\" (it is required)"));
     EXPECT_TRUE(says(error_of({{"triplanar", 3}}), place + "triplanar is 3 (allowed: an object)"));
     EXPECT_TRUE(says(error_of("loud"), "materials[0].extras.rawtexel is \"loud\" (allowed: an object)"));
