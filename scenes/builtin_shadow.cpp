@@ -70,7 +70,7 @@ shading::Scene make_shadow(const texunit::TextureOptions& options) {
     for (const glm::vec2 p : {glm::vec2(-1.15f, 0.9f), glm::vec2(1.3f, 1.5f)})
         assembly.place(balls, glm::translate(glm::mat4(1.0f), {p.x, 0.22f, p.y}));
 
-    assembly.add_camera("screen", {1.5f, 1.75f, 4.3f}, {0.0f, 0.55f, 0.8f}, 42.0f);
+    assembly.add_camera("screen", {1.5f, 1.75f, 4.3f}, {0.0f, 0.5501f, 0.8f}, 42.0f);
     assembly.add_camera("penumbra", {0.2f, 0.9f, 2.3f}, {0.0f, 0.0f, 1.5f}, 30.0f);
     assembly.add_sky_and_sun();
     return assembly.take();

@@ -132,7 +132,12 @@ constexpr Property kMaterialExtensions[] = {
 };
 constexpr ObjectRules kMaterialExtensionsRules{kMaterialExtensions};
 constexpr Property kTriplanar[] = {
-    {.name = "scale", .kind = Kind::Number, .minimum = kAboveZero, .maximum = 1e6, .allowed = "a number above 0, at most 1e6"},
+    {.name = "scale",
+     .kind = Kind::Number,
+     .required = true,
+     .minimum = kAboveZero,
+     .maximum = 1e6,
+     .allowed = "a number above 0, at most 1e6"},
     {.name = "sharpness", .kind = Kind::Integer, .minimum = 1, .maximum = shading::kMostSharpness},
 };
 constexpr Property kLayers[] = {

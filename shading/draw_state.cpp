@@ -129,6 +129,8 @@ MaterialState make_material_state(const Scene& scene, uint32_t index, const Look
         lookup.coordinates = coordinates_of(state, map);
     }
     make_plans(scene, overrides, state);
+    // Where a policy has taps shaded there is no one surface to blend.
+    state.blends_light |= !state.plans.shaded.empty();
     state.draws_level = draws_level(overrides.filtering.baseline);
     const bool bumpy = !state.material->unlit && state.maps[kNormal].texture;
     if (bumpy && corrects_gloss(overrides.filtering.baseline)) state.gloss.way = overrides.filtering.baseline;
@@ -141,7 +143,10 @@ void link_layers(std::vector<MaterialState>& states) {
         if (!state.material->layers) continue;
         const std::vector<uint32_t>& layers = state.material->layers->materials;
         assert(layers.size() >= kFewestLayers && layers.size() <= kMostLayers);
-        for (const uint32_t layer : layers) state.layers[size_t(state.layer_count++)] = &states[layer];
+        for (const uint32_t layer : layers) {
+            state.layers[size_t(state.layer_count++)] = &states[layer];
+            state.blends_light |= states[layer].blends_light;
+        }
     }
 }
 

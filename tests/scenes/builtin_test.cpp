@@ -262,7 +262,7 @@ TEST(Builtin, TriplanarAndLayersBlend) {
     for (int channel = 0; channel < 3; ++channel) {
         int pure = 0;
         for (int i = 0; i < 4096; ++i) pure += mask.texel(0, 0, (i * 131) % 512, (i * 197) % 512)[size_t(channel)] > 0.99f;
-        EXPECT_GT(pure, 100) << "layer " << channel;
+        EXPECT_GT(pure, 40) << "layer " << channel;
     }
 }
 

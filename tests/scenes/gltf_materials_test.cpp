@@ -226,7 +226,7 @@ TEST_F(GltfMaterialsTest, ValuesOutsideTheirRangesAreRefused) {
 TEST_F(GltfMaterialsTest, ExtrasOfTheProgramMakeMaterialsTriplanarAndLayered) {
     add_texture();
     fixture_.add("materials", {{"extras", {{"rawtexel", {{"triplanar", {{"scale", 0.25}, {"sharpness", 7}}}}}}}});
-    fixture_.add("materials", {{"extras", {{"rawtexel", {{"triplanar", nlohmann::json::object()}}}, {"other", 1}}}});
+    fixture_.add("materials", {{"extras", {{"rawtexel", {{"triplanar", {{"scale", 1}}}}}, {"other", 1}}}});
     const nlohmann::json mask = {{"index", 0}, {"texCoord", 1}, {"extensions", {{"KHR_texture_transform", {{"scale", {2, 3}}}}}}};
     fixture_.add("materials", {{"extras", {{"rawtexel", {{"layers", {{"materials", {1, 0, 1}}, {"mask", mask}}}}}}}});
     fixture_.add("materials", {{"extras", {{"rawtexel", {{"layers", {{"materials", {0, 1}}}}}}}}});
@@ -259,8 +259,9 @@ TEST_F(GltfMaterialsTest, ExtrasThatMakeNoSenseAreErrors) {
     const std::string place = "materials[0].extras.rawtexel.";
     EXPECT_TRUE(says(error_of({{"triplanar", {{"scale", 0}}}}), place + "triplanar.scale is 0 (allowed: a number above 0, at most 1e6)"));
     EXPECT_TRUE(says(error_of({{"triplanar", {{"scale", 1e30}}}}), place + "triplanar.scale is 1e+30"));
-    EXPECT_TRUE(says(error_of({{"triplanar", {{"sharpness", 65}}}}), place + "triplanar.sharpness is 65"));
-    EXPECT_TRUE(says(error_of({{"triplanar", {{"sharpness", 2.5}}}}), place + "triplanar.sharpness is 2.5"));
+    EXPECT_TRUE(says(error_of({{"triplanar", {{"scale", 1}, {"sharpness", 65}}}}), place + "triplanar.sharpness is 65"));
+    EXPECT_TRUE(says(error_of({{"triplanar", {{"scale", 1}, {"sharpness", 2.5}}}}), place + "triplanar.sharpness is 2.5"));
+    EXPECT_TRUE(says(error_of({{"triplanar", json::object()}}), "triplanar has no \"scale\" (it is required)"));
     EXPECT_TRUE(says(error_of({{"triplanar", 3}}), place + "triplanar is 3 (allowed: an object)"));
     EXPECT_TRUE(says(error_of("loud"), "materials[0].extras.rawtexel is \"loud\" (allowed: an object)"));
     EXPECT_TRUE(says(error_of({{"layers", json::object()}}), "layers has no \"materials\" (it is required)"));
@@ -271,9 +272,9 @@ TEST_F(GltfMaterialsTest, ExtrasThatMakeNoSenseAreErrors) {
     EXPECT_TRUE(says(layered({1, 2}), place + "layers.materials[1] is 2, a material that is not OPAQUE"));
     EXPECT_TRUE(says(layered({1, 3}), place + "layers.materials[1] is 3, a material that is unlit (allowed: all are, or none)"));
     EXPECT_TRUE(says(error_of({{"layers", {{"materials", {1, 1}}, {"mask", {{"index", 5}}}}}}), "layers.mask.index is 5"));
-    EXPECT_TRUE(says(error_of({{"layers", {{"materials", {1, 1}}}}, {"triplanar", json::object()}}), "has triplanar and layers"));
+    EXPECT_TRUE(says(error_of({{"layers", {{"materials", {1, 1}}}}, {"triplanar", {{"scale", 1}}}}), "has triplanar and layers"));
     material()["alphaMode"] = "MASK";
-    EXPECT_TRUE(says(error_of({{"triplanar", json::object()}}), "materials[0].alphaMode is not OPAQUE"));
+    EXPECT_TRUE(says(error_of({{"triplanar", {{"scale", 1}}}}), "materials[0].alphaMode is not OPAQUE"));
 }
 
 }  // namespace

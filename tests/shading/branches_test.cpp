@@ -3,11 +3,13 @@
 #include "tests/shading/agreement.h"
 #include "tests/shading/scene_parts.h"
 #include "texunit/random.h"
+#include "texunit/simd.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace rawtexel::shading {
@@ -167,6 +169,20 @@ TEST_F(BranchesTest, ADrawnPlaneDemandsExactlyAThird) {
     }
 }
 
+/// Policies may shade the taps of one material where all others are filtered first.
+TEST_F(BranchesTest, APolicyShadesThePlanesOfItsMaterial) {
+    Material material = triplanar_material();
+    add_object(scene_, leaning_quad(), material);
+    const Image listed = radiance(kListed);
+    scene_.materials[0].policy.order = FilterOrder::After;
+    EXPECT_LT(largest_difference(radiance({}), listed), 1e-6);
+    scene_.meshes.clear(), scene_.instances.clear();
+    const uint32_t plain = add_material(mapped_material(16, 5));
+    const Material mixed = mix({plain, 0}, add_texture(8, 31));
+    add_object(scene_, leaning_quad(), mixed);
+    EXPECT_TRUE(std::ranges::any_of(radiance({}).values, [](float v) { return v > 0; }));
+}
+
 // --- layers
 
 TEST_F(BranchesTest, LayersOfOneMaterialAreThatMaterial) {
@@ -264,7 +280,8 @@ TEST_F(BranchesTest, OneShadowTestConvergesToTheWholeFilter) {
 
 // --- bits
 
-TEST(BranchBits, DoNotDependOnTilesThreadsAndCrops) {
+/// The busy scene, every other material of it triplanar, and a layered ball.
+Scene make_branched_scene() {
     Scene scene = make_busy_scene();
     const size_t others = scene.materials.size();
     for (size_t i = 0; i < others; ++i) {
@@ -278,16 +295,26 @@ TEST(BranchBits, DoNotDependOnTilesThreadsAndCrops) {
     mixed.layers = LayerBlend{.materials = {lit[0], lit[1]}, .mask = {}};
     mixed.layers->mask.texture = 0;
     add_object(scene, make_sphere(20, 12), mixed, glm::translate(glm::mat4(1.0f), glm::vec3(0.3f, 1.2f, 0.5f)));
+    return scene;
+}
+
+RenderOptions branched_options(const FilteringOptions& filtering) {
+    RenderOptions options;
+    options.width = 165;
+    options.height = 101;
+    options.camera = busy_camera();
+    options.spp = 3;
+    options.filtering = filtering;
+    options.filtering.shadow_taps = ShadowTaps::One;
+    return options;
+}
+
+TEST(BranchBits, DoNotDependOnTilesThreadsAndCrops) {
+    const Scene scene = make_branched_scene();
     const std::unique_ptr<Executor> one = make_executor(ExecutorKind::Threads, 1), two = make_executor(ExecutorKind::Tbb, 2);
     const Lighting lighting = busy_lighting(scene, *one);
-    for (FilteringOptions filtering : {FilteringOptions{}, kListed, kDrawnPlane, kDrawn, kDrawnTexels}) {
-        filtering.shadow_taps = ShadowTaps::One;
-        RenderOptions options;
-        options.width = 165;
-        options.height = 101;
-        options.camera = busy_camera();
-        options.spp = 3;
-        options.filtering = filtering;
+    for (const FilteringOptions& filtering : {FilteringOptions{}, kListed, kDrawnPlane, kDrawn, kDrawnTexels}) {
+        RenderOptions options = branched_options(filtering);
         const Image whole = render(scene, lighting, options, *one).radiance;
         options.tile_size = 32;
         EXPECT_EQ(render(scene, lighting, options, *two).radiance.values, whole.values);
@@ -297,6 +324,23 @@ TEST(BranchBits, DoNotDependOnTilesThreadsAndCrops) {
         for (int y = 0; y < 40; ++y)
             for (int x = 0; x < 40; ++x)
                 for (int c = 0; c < 3; ++c) ASSERT_EQ(crop.pixel(x, y)[c], whole.pixel(50 + x, 30 + y)[c]);
+    }
+}
+
+TEST(BranchBits, DoNotDependOnTheInstructionSet) {
+    const Scene scene = make_branched_scene();
+    const std::unique_ptr<Executor> executor = make_executor(ExecutorKind::Threads, 1);
+    const Lighting lighting = busy_lighting(scene, *executor);
+    for (const FilteringOptions& filtering : {FilteringOptions{}, kListed, kDrawn}) {
+        const RenderOptions options = branched_options(filtering);
+        std::vector<float> first;
+        for (const texunit::Simd simd : texunit::available_simd()) {
+            ASSERT_TRUE(texunit::choose_simd(simd));
+            const Image image = render(scene, lighting, options, *executor).radiance;
+            if (first.empty()) first = image.values;
+            EXPECT_EQ(image.values, first) << to_string(simd);
+        }
+        texunit::choose_simd(texunit::Simd::Auto);
     }
 }
 
