@@ -283,6 +283,27 @@ TEST_F(BaselineTest, DithersShadeTheTexelThatTheirOffsetsSay) {
     }
 }
 
+// --- policies
+
+TEST_F(BaselineTest, PoliciesTakeTheirPlace) {
+    add_colors(0.37f);
+    const Image before = radiance(Baseline::None);
+    scene_.materials[0].policy.order = FilterOrder::Before;
+    for (const Baseline baseline : {Baseline::UeDither, Baseline::OiioStochastic, Baseline::Moonray})
+        EXPECT_EQ(radiance(baseline).values, before.values) << to_string(baseline);
+}
+
+TEST_F(BaselineTest, DithersAndPoliciesDoNotMixInAMaterial) {
+    add_bumps({0.2f, 0}, 0.5f);
+    scene_.materials[0].maps[kBaseColor].texture = add(make_noise_texture(8, 8, 1));
+    options_.filtering.baseline = Baseline::UeDither;
+    EXPECT_EQ(refusal(scene_, options_), "");
+    scene_.textures[0].policy.order = FilterOrder::Before;
+    EXPECT_NE(refusal(scene_, options_).find("ue-dither"), std::string::npos);
+    options_.filtering.baseline = Baseline::Lean;
+    EXPECT_EQ(refusal(scene_, options_), "");
+}
+
 // --- all
 
 TEST(BaselineBits, DoNotDependOnTilesThreadsAndCrops) {
