@@ -70,11 +70,14 @@ void make_plans(const Scene& scene, const LookupOverrides& overrides, MaterialSt
     plans.taps = overrides.filtering.taps;
     plans.common_numbers = overrides.filtering.common_numbers;
     plans.noise = overrides.filtering.noise;
-    plans.dither = dither_of(overrides.filtering.baseline);
     state.sharing = overrides.filtering.sharing;
     for (int slot = 0; slot < kMapSlots; ++slot) {
         if (!state.maps[size_t(slot)].texture) continue;
         const FilteringOptions filtering = asked_lookup(scene, *state.material, slot, overrides).filtering;
+        if (is_dither(filtering.baseline)) plans.dither = dither_of(filtering.baseline);
+        state.draws_level |= draws_level(filtering.baseline);
+        const bool bumpy = slot == kNormal && !state.material->unlit;
+        if (bumpy && corrects_gloss(filtering.baseline)) state.gloss.way = filtering.baseline;
         const bool after = filtering.effective_order() == FilterOrder::After;
         if (after) add_to_plan(state, slot, plans.shaded);
         if (!after && filtering.draws()) add_to_plan(state, slot, plans.averaged);
@@ -87,6 +90,16 @@ bool disagrees(const MaterialState& state) {
     for (int slot = 0; slot < kMapSlots; ++slot) {
         const MapState& map = state.maps[size_t(slot)];
         if (state.plans.enumerates && state.plans.shaded.holds(slot) && map.sampler.estimator != texunit::Estimator::All) return true;
+    }
+    return false;
+}
+
+/// Whether some of the maps are looked up as the baseline does that gives the whole material its numbers, and others by policies.
+bool mixes_baselines(const Scene& scene, const MaterialState& state, const LookupOverrides& overrides) {
+    if (state.plans.dither == texunit::Dither::None && !state.draws_level) return false;
+    for (int slot = 0; slot < kMapSlots; ++slot) {
+        const bool looked_up = state.maps[size_t(slot)].texture != nullptr;
+        if (looked_up && asked_lookup(scene, *state.material, slot, overrides).filtering.baseline == Baseline::None) return true;
     }
     return false;
 }
@@ -124,6 +137,7 @@ MaterialState make_material_state(const Scene& scene, uint32_t index, const Look
         const AskedLookup asked = asked_lookup(scene, *state.material, slot, overrides);
         override_sampler(overrides, lookup.sampler);
         lookup.sampler.estimator = asked.filtering.estimator;
+        override_baseline(asked.filtering.baseline, lookup.sampler);
         if (asked.policy.filter) lookup.sampler.magnify = lookup.sampler.minify = *asked.policy.filter;
         if (asked.policy.mip) lookup.sampler.mip = *asked.policy.mip;
         lookup.coordinates = coordinates_of(state, map);
@@ -131,9 +145,6 @@ MaterialState make_material_state(const Scene& scene, uint32_t index, const Look
     make_plans(scene, overrides, state);
     // Where a policy has taps shaded there is no one surface to blend.
     state.blends_light |= !state.plans.shaded.empty();
-    state.draws_level = draws_level(overrides.filtering.baseline);
-    const bool bumpy = !state.material->unlit && state.maps[kNormal].texture;
-    if (bumpy && corrects_gloss(overrides.filtering.baseline)) state.gloss.way = overrides.filtering.baseline;
     return state;
 }
 
@@ -234,6 +245,9 @@ std::string refusal(const Scene& scene, const LookupOverrides& overrides) {
                            std::string(reason);
             }
         }
+        if (mixes_baselines(scene, state, overrides))
+            return material + "some of its maps are looked up as baseline " + std::string(to_string(filtering.baseline)) +
+                   " says, and others as policies say";
         if (disagrees(state)) return material + "of the maps that are shaded tap by tap some weigh every tap and others draw (a policy)";
         if (state.plans.enumerates && state.plans.shaded.lookups > 1 && overrides.footprint.ellipse > 0)
             return material +

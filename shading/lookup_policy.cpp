@@ -15,6 +15,7 @@ LookupPolicy combine(const LookupPolicy& general, const LookupPolicy& specific) 
 }
 
 FilteringOptions apply(const LookupPolicy& policy, FilteringOptions options) {
+    if (policy.order || policy.estimator) options.baseline = Baseline::None;
     if (policy.order) {
         options.order = policy.order;
         if (*policy.order == FilterOrder::Before) options.estimator = texunit::Estimator::All;

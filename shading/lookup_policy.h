@@ -22,7 +22,7 @@ struct LookupPolicy {
 /// `specific` where it says something, else `general`.
 LookupPolicy combine(const LookupPolicy& general, const LookupPolicy& specific);
 
-/// `options` as the policy changes them.
+/// `options` as the policy changes them. An order or an estimator of its own takes the place of a baseline.
 FilteringOptions apply(const LookupPolicy& policy, FilteringOptions options);
 
 }  // namespace rawtexel::shading

@@ -28,7 +28,8 @@ std::vector<uint64_t> stone_texels(const Words& more) {
     const test::Outcome outcome = run(words);
     EXPECT_EQ(outcome.code, kDone) << outcome.err;
     std::vector<uint64_t> texels;
-    for (const Json& texture : Json::parse(test::read_file(folder / "stats.json"))["textures"])
+    const Json stats = Json::parse(test::read_file(folder / "stats.json"));
+    for (const Json& texture : stats["textures"])
         if (texture["name"].get<std::string>().starts_with("mossy rock")) texels.push_back(texture["texels_requested"]);
     return texels;
 }
