@@ -160,6 +160,8 @@ void preset_reference(RenderRequest& request) {
         {lookup.mip.has_value(), "--mip"},
         {!(lookup.footprint == shading::FootprintOptions{}), "--aniso, --ewa, --lod-*, --hybrid-bias, --derivatives and --footprint"},
         {lookup.filtering.draws() || lookup.filtering.order, "--estimator and --order"},
+        {lookup.filtering.baseline != shading::Baseline::None, "--baseline"},
+        {lookup.filtering.blend || lookup.filtering.shadow_taps != shading::ShadowTaps::All, "--blend and --shadow-taps"},
         {lookup.precision != texunit::Precision::Exact, "--precision"},
         {request.samples.spp != 1, "--spp"},
         {request.sequence.is_sequence(), "--frames and --accumulate"},

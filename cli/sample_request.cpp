@@ -97,6 +97,7 @@ void declare_sample_request(CommandLine& line, SampleRequest& request) {
 
 std::vector<LookupPlace> settle_places(const SampleRequest& request, std::string_view usage) {
     check_exclusions(request);
+    check_hybrid_bias(request.lookup.footprint, request.lookup.filtering);
     if (!request.coordinates) throw UsageError("--uv U,V is missing (usage: rawtexel " + std::string(usage) + ")");
     const auto& [kind, place, file] = *request.coordinates;
     std::vector<LookupPlace> places = file.empty() ? std::vector{place} : read_places(file, kind);

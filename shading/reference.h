@@ -11,7 +11,7 @@ struct ReferenceGoal {
 };
 
 struct Reference {
-    RenderResult result;        ///< of all samples; counts and layers are those of the first batch
+    RenderResult result;        ///< radiance of all samples; everything else of the first batch
     double standard_error = 0;  ///< reached: root mean square over pixels and channels of the mean's standard error
     int samples = 0;            ///< per pixel
 };

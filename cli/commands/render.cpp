@@ -93,6 +93,7 @@ class RenderCommand : public Command {
     std::vector<OutputFile> output_files() const;
     std::vector<std::string> input_files() const;
     void check_sequence() const;
+    void check_truth() const;
     void check_all_apart(std::span<const std::string> inputs) const;
     void check_before_long_work(const Invocation& invocation) const;
     shading::Scene load_scene(const Invocation& invocation, ProgressReport& progress) const;
@@ -129,6 +130,7 @@ void RenderCommand::settle_words() {
     if (output_.empty()) throw UsageError("-o FILE is missing (usage: rawtexel " + std::string(usage()) + ")");
     settle(request_);
     if (request_.sequence.is_sequence()) check_sequence();
+    if (request_.samples.reference) check_truth();
 }
 
 void RenderCommand::check_sequence() const {
@@ -147,6 +149,17 @@ void RenderCommand::check_sequence() const {
         throw UsageError("--flicker: '" + sequence.flicker + "' cannot hold floats, a format that can is '.exr'");
 }
 
+// Batches of samples are rendered until they suffice, and nothing but their radiance is put together.
+void RenderCommand::check_truth() const {
+    const bool counts = request_.fetches.counts() || !counts_.empty() || !trace_.empty();
+    const std::pair<bool, const char*> asked[] = {{counts, "--count, --cache, --fetch-model, --counts and --trace"},
+                                                  {!aovs_.empty(), "--aov"},
+                                                  {repeats_ > 1, "--repeat"},
+                                                  {request_.tone.white_backdrop, "--scenario without a skybox"}};
+    for (const auto& [given, options] : asked)
+        if (given) throw UsageError("--reference makes an image and nothing else: " + std::string(options) + " cannot go with it");
+}
+
 std::vector<OutputFile> RenderCommand::output_files() const {
     std::vector<OutputFile> files{{"-o", output_}};
     if (!stats_.empty()) files.push_back({"--stats", stats_});
@@ -163,6 +176,7 @@ std::vector<std::string> RenderCommand::input_files() const {
     if (environment && environment->kind == EnvironmentKind::File) files.push_back(environment->file);
     const auto& path = request_.sequence.path;
     if (path && path->kind == CameraPathKind::File) files.push_back(path->file);
+    if (!request_.policy.empty()) files.push_back(request_.policy);
     return files;
 }
 
