@@ -1,6 +1,6 @@
+#include "shading/depth_tiles.h"
 #include "shading/draw_state.h"
 #include "shading/render.h"
-#include "shading/tile.h"
 
 #include <algorithm>
 
@@ -38,14 +38,8 @@ std::shared_ptr<const ShadowMap> draw_shadow_map(const Scene& scene, const Light
     const raster::FrameOptions options{.width = map->size, .height = map->size, .tile_size = kShadowTileSize};
     const raster::Frame frame(options, draws, parallel_for_of(executor));
 
-    std::vector<raster::TileVisibility> tiles(size_t(executor.threads()));
-    executor.parallel_for(int64_t(frame.tiles_x()) * frame.tiles_y(), [&](int64_t index, int worker) {
-        const int tile_x = int(index % frame.tiles_x()), tile_y = int(index / frame.tiles_x());
-        if (frame.bin(tile_x, tile_y).empty()) return;
-        raster::TileVisibility& tile = tiles[size_t(worker)];
-        draw_shadow_tile(frame, states.draws, tile_x, tile_y, tile);
-        copy_tile(tile, tile_x, tile_y, *map);
-    });
+    draw_depth_tiles(frame, states.draws, executor,
+                     [&](int tile_x, int tile_y, const raster::TileVisibility& tile) { copy_tile(tile, tile_x, tile_y, *map); });
     return map;
 }
 

@@ -1,8 +1,8 @@
 #include "shading/temporal_depth.h"
 
 #include "shading/camera.h"
+#include "shading/depth_tiles.h"
 #include "shading/draw_state.h"
-#include "shading/tile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,12 +42,7 @@ Image center_depth(const Scene& scene, const Camera& camera, int width, int heig
 
     Image image(width, height, 1);
     std::ranges::fill(image.values, std::numeric_limits<float>::infinity());
-    std::vector<raster::TileVisibility> tiles(size_t(executor.threads()));
-    executor.parallel_for(int64_t(frame.tiles_x()) * frame.tiles_y(), [&](int64_t index, int worker) {
-        const int tile_x = int(index % frame.tiles_x()), tile_y = int(index / frame.tiles_x());
-        if (frame.bin(tile_x, tile_y).empty()) return;
-        raster::TileVisibility& tile = tiles[size_t(worker)];
-        draw_shadow_tile(frame, states.draws, tile_x, tile_y, tile);
+    draw_depth_tiles(frame, states.draws, executor, [&](int tile_x, int tile_y, const raster::TileVisibility& tile) {
         put_distances(tile, camera, tile_x, tile_y, image);
     });
     return image;

@@ -1,6 +1,7 @@
 // Materials that blend planes or layers, in whole frames.
 #include "shading/render.h"
 #include "tests/shading/agreement.h"
+#include "tests/shading/frame_bits.h"
 #include "tests/shading/scene_parts.h"
 #include "texunit/random.h"
 #include "texunit/simd.h"
@@ -311,19 +312,11 @@ RenderOptions branched_options(const FilteringOptions& filtering) {
 
 TEST(BranchBits, DoNotDependOnTilesThreadsAndCrops) {
     const Scene scene = make_branched_scene();
-    const std::unique_ptr<Executor> one = make_executor(ExecutorKind::Threads, 1), two = make_executor(ExecutorKind::Tbb, 2);
+    const std::unique_ptr<Executor> one = make_executor(ExecutorKind::Threads, 1);
     const Lighting lighting = busy_lighting(scene, *one);
     for (const FilteringOptions& filtering : {FilteringOptions{}, kListed, kDrawnPlane, kDrawn, kDrawnTexels}) {
-        RenderOptions options = branched_options(filtering);
-        const Image whole = render(scene, lighting, options, *one).radiance;
-        options.tile_size = 32;
-        EXPECT_EQ(render(scene, lighting, options, *two).radiance.values, whole.values);
-        options.tile_size = 128;
-        options.crop = {50, 30, 40, 40};
-        const Image crop = render(scene, lighting, options, *two).radiance;
-        for (int y = 0; y < 40; ++y)
-            for (int x = 0; x < 40; ++x)
-                for (int c = 0; c < 3; ++c) ASSERT_EQ(crop.pixel(x, y)[c], whole.pixel(50 + x, 30 + y)[c]);
+        const RenderOptions options = branched_options(filtering);
+        expect_bits_of_tiles_threads_and_crops(scene, lighting, options, std::string(to_string(filtering.effective_blend())));
     }
 }
 

@@ -50,18 +50,25 @@ double rms_difference(const Image& a, const Image& b) {
 
 double decibels(double before, double after) { return 10.0 * std::log10(before / after); }
 
-/// Of independent frames the average of weight a keeps a / (2 - a) of the variance, 1/19 for a = 0.1.
-TEST(MovingAverage, GainsItsDecibelsOnWhiteNoise) {
+/// By how much a moving average of weight 0.1 over 80 frames is nearer to 0.5 than the last of them.
+double gain_of_average(const std::function<Image(uint32_t frame)>& frames) {
     Image history;
     double before = 0.0;
     for (uint32_t frame = 0; frame < 80; ++frame) {
-        const Image noise = filled(128, 128, [&](int x, int y) {
+        const Image image = frames(frame);
+        before = mean_square_around(image, 0.5);
+        move_towards(image, 0.1f, history);
+    }
+    return decibels(before, mean_square_around(history, 0.5));
+}
+
+/// Of independent frames the average of weight a keeps a / (2 - a) of the variance, 1/19 for a = 0.1.
+TEST(MovingAverage, GainsItsDecibelsOnWhiteNoise) {
+    const double gain = gain_of_average([](uint32_t frame) {
+        return filled(128, 128, [&](int x, int y) {
             return texunit::random_float({.x = uint32_t(x), .y = uint32_t(y), .sample = frame, .seed = 7});
         });
-        before = mean_square_around(noise, 0.5);
-        move_towards(noise, 0.1f, history);
-    }
-    const double gain = decibels(before, mean_square_around(history, 0.5));
+    });
     std::cout << "gain on white noise: " << gain << " dB\n";
     EXPECT_NEAR(gain, 10.0 * std::log10(19.0), 0.3);
 }
@@ -75,15 +82,10 @@ TEST(MovingAverage, GainsItsDecibelsOnRenderedNoise) {
     options.width = options.height = 128;
     options.camera = square_camera();
     options.background = glm::vec3(0.0f);
-    Image history;
-    double before = 0.0;
-    for (uint32_t frame = 0; frame < 80; ++frame) {
+    const double gain = gain_of_average([&](uint32_t frame) {
         options.first_sample = frame;
-        const Image image = render(scene, Lighting{}, options, *executor).radiance;
-        before = mean_square_around(image, 0.5);
-        move_towards(image, 0.1f, history);
-    }
-    const double gain = decibels(before, mean_square_around(history, 0.5));
+        return render(scene, Lighting{}, options, *executor).radiance;
+    });
     std::cout << "gain on rendered noise: " << gain << " dB\n";
     EXPECT_NEAR(gain, 10.0 * std::log10(19.0), 0.3);
 }

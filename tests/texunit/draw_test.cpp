@@ -191,21 +191,9 @@ TEST(SignedDraw, HasTheVarianceOfPositivization) {
     for (const auto& [kernel, expected] : known) {
         EXPECT_NEAR(variance_over_phases(kernel), expected, 0.002 * expected) << to_string(kernel);
         const SamplerState sampler{.magnify = kernel, .minify = kernel, .mip = MipMode::None};
-        double squares = 0;
-        for (uint32_t n = 0; n < kWaves; ++n) {
-            WaveCoordinates at{};
-            for (uint32_t lane = 0; lane < kWaveLanes; ++lane) {
-                at.u[int(lane)] = random_float({.x = lane, .y = 100, .sample = n});
-                at.v[int(lane)] = random_float({.x = lane, .y = 101, .sample = n});
-            }
-            WaveFloat value[2];
-            for (uint32_t twin = 0; twin < 2; ++twin) {
-                const SignedDraw draw = signed_draw(texture, sampler, at, {.x = 0, .y = 4 * twin, .sample = n});
-                value[twin] = signed_value(texture, sampler, draw);
-            }
-            for (int lane = 0; lane < kWaveLanes; ++lane) squares += std::pow(double(value[0][lane] - value[1][lane]), 2) / 2;
-        }
-        const double found = squares / (double(kWaves) * kWaveLanes);
+        const double found = variance_over_places(kWaves, [&](const WaveCoordinates& at, const RandomAddress& first) {
+            return signed_value(texture, sampler, signed_draw(texture, sampler, at, first));
+        });
         std::printf("%s: variance %.4f, expected %.4f\n", to_string(kernel).c_str(), found, expected);
         EXPECT_NEAR(found, expected, 0.01 * expected) << to_string(kernel);
     }

@@ -59,4 +59,21 @@ inline std::map<Place, double> weights_of(const LookupTrace& trace) {
     return weights;
 }
 
+/// Variance of a lookup over uniform texels and phases: half the mean square difference of two that differ in their numbers alone.
+/// value(at, first) is the lookup of a wave at `at` with the numbers of `first`.
+template <class Value>
+double variance_over_places(uint32_t waves, const Value& value) {
+    double squares = 0;
+    for (uint32_t n = 0; n < waves; ++n) {
+        WaveCoordinates at{};
+        for (uint32_t lane = 0; lane < kWaveLanes; ++lane) {
+            at.u[int(lane)] = random_float({.x = lane, .y = 100, .sample = n});
+            at.v[int(lane)] = random_float({.x = lane, .y = 101, .sample = n});
+        }
+        const WaveFloat one = value(at, RandomAddress{.sample = n}), other = value(at, RandomAddress{.y = 4, .sample = n});
+        for (int lane = 0; lane < kWaveLanes; ++lane) squares += std::pow(double(one[lane] - other[lane]), 2) / 2;
+    }
+    return squares / (double(waves) * kWaveLanes);
+}
+
 }  // namespace rawtexel::texunit

@@ -176,26 +176,17 @@ TEST(Estimator, AbsWeightHasItsPublishedVariance) {
     constexpr uint32_t kWaves = 24000;
     for (const auto& [kernel, expected] : known) {
         const SamplerState sampler{.magnify = kernel, .minify = kernel, .mip = MipMode::None};
-        double squares = 0;
-        for (uint32_t n = 0; n < kWaves; ++n) {
-            WaveCoordinates at{};
-            for (uint32_t lane = 0; lane < kWaveLanes; ++lane) {
-                at.u[int(lane)] = random_float({.x = lane, .y = 100, .sample = n});
-                at.v[int(lane)] = random_float({.x = lane, .y = 101, .sample = n});
-            }
-            WaveFloat value[2];
-            for (uint32_t twin = 0; twin < 2; ++twin) {
-                DrawNumbers numbers;
-                draw_numbers({.y = 4 * twin, .sample = n}, numbers);
-                TexelDraw draw;
-                WaveColor texel;
-                draw_absolute_wave(texture, sampler, at, kWaveFull, numbers, draw, value[twin]);
-                read_drawn_wave(texture, sampler, draw, texel);
-                for (int lane = 0; lane < kWaveLanes; ++lane) value[twin][lane] *= texel.channel[0][lane];
-            }
-            for (int lane = 0; lane < kWaveLanes; ++lane) squares += std::pow(double(value[0][lane] - value[1][lane]), 2) / 2;
-        }
-        const double found = squares / (double(kWaves) * kWaveLanes);
+        const double found = variance_over_places(kWaves, [&](const WaveCoordinates& at, const RandomAddress& first) {
+            DrawNumbers numbers;
+            draw_numbers(first, numbers);
+            TexelDraw draw;
+            WaveFloat value;
+            WaveColor texel;
+            draw_absolute_wave(texture, sampler, at, kWaveFull, numbers, draw, value);
+            read_drawn_wave(texture, sampler, draw, texel);
+            for (int lane = 0; lane < kWaveLanes; ++lane) value[lane] *= texel.channel[0][lane];
+            return value;
+        });
         std::printf("%s: variance %.4f, expected %.4f\n", to_string(kernel).c_str(), found, expected);
         EXPECT_NEAR(found, expected, 0.01 * expected) << to_string(kernel);
     }

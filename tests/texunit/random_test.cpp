@@ -1,6 +1,8 @@
 // The quality of addressed random numbers: uniform, every input bit matters, no relation between pixels, samples, surfaces and roles.
 #include "texunit/random.h"
 
+#include "tests/texunit/uniformity.h"
+
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -15,17 +17,6 @@ namespace {
 constexpr Dimension kDimensions[] = {Dimension::PixelX,   Dimension::PixelY, Dimension::TapX,  Dimension::TapY,
                                      Dimension::TapZ,     Dimension::Level,  Dimension::Probe, Dimension::Sign,
                                      Dimension::Coverage, Dimension::Layer,  Dimension::Light, Dimension::Plane};
-
-/// Standard deviations by which a chi-square statistic of `counts` against the uniform expectation is off
-/// (Wilson and Hilferty's cube root).
-double chi_square_z(const std::vector<uint64_t>& counts) {
-    uint64_t total = 0;
-    for (const uint64_t count : counts) total += count;
-    const double expected = double(total) / double(counts.size()), freedom = double(counts.size()) - 1;
-    double statistic = 0;
-    for (const uint64_t count : counts) statistic += (double(count) - expected) * (double(count) - expected) / expected;
-    return (std::cbrt(statistic / freedom) - (1 - 2 / (9 * freedom))) / std::sqrt(2 / (9 * freedom));
-}
 
 /// About 1e-6 two-sided over all the statistics of this file: 5.5 standard deviations. Too uniform is wrong as well.
 constexpr double kLimit = 5.5;
@@ -62,8 +53,8 @@ TEST(Random, IsUniformAlongEveryWordOfTheAddress) {
                 ++high[bits >> 24];
                 ++low[bits & 255];
             }
-            EXPECT_LT(std::abs(chi_square_z(high)), kLimit) << "high bits, " << walk.name << ", dimension " << int(dimension);
-            EXPECT_LT(std::abs(chi_square_z(low)), kLimit) << "low bits, " << walk.name << ", dimension " << int(dimension);
+            EXPECT_LT(std::abs(unevenness(high)), kLimit) << "high bits, " << walk.name << ", dimension " << int(dimension);
+            EXPECT_LT(std::abs(unevenness(low)), kLimit) << "low bits, " << walk.name << ", dimension " << int(dimension);
         }
     }
 }
@@ -72,7 +63,7 @@ TEST(Random, IsUniformAlongEveryWordOfTheAddress) {
 void expect_independent(const char* name, const Walk& first, const Walk& second) {
     std::vector<uint64_t> cells(32 * 32);
     for (uint32_t n = 0; n < kCount; ++n) ++cells[random_bits(first(n)) >> 27 << 5 | random_bits(second(n)) >> 27];
-    EXPECT_LT(std::abs(chi_square_z(cells)), kLimit) << name;
+    EXPECT_LT(std::abs(unevenness(cells)), kLimit) << name;
 }
 
 TEST(Random, IsIndependentBetweenNeighbouringAddresses) {
