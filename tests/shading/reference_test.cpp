@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace rawtexel::shading {
@@ -51,6 +52,19 @@ TEST_F(ReferenceTest, StopsAtTheMostSamplesAndTellsItsError) {
     const Reference bounded = render_to(1e-6, 128);
     EXPECT_EQ(bounded.samples, 128);
     EXPECT_GT(bounded.standard_error, 1e-6);
+}
+
+/// Coverage of a BLEND surface is a coin for every pixel and sample: after N of them the error is half the root of 1/N.
+TEST_F(ReferenceTest, TellsTheErrorThatIndependentSamplesHave) {
+    scene_ = {};
+    add_object(scene_, make_quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}), unlit(glm::vec4(1, 1, 1, 0.5f), AlphaMode::Blend));
+    options_.background = glm::vec3(0);
+    const Reference reference = render_to(1e-6, 1024);
+    EXPECT_EQ(reference.samples, 1024);
+    EXPECT_NEAR(reference.standard_error, 0.5 / std::sqrt(1024.0), 0.02 * 0.5 / std::sqrt(1024.0));
+    Image half(48, 48, 3);
+    std::fill(half.values.begin(), half.values.end(), 0.5f);
+    EXPECT_NEAR(rms_difference(reference.result.radiance, half), reference.standard_error, 0.06 * reference.standard_error);
 }
 
 TEST_F(ReferenceTest, ReadsLevelZeroWhateverTheOptionsSay) {
