@@ -129,31 +129,6 @@ TEST_F(FilteringTest, DrawsWithNumbersOfTheirOwnConvergeToFilteringFirstWhereSha
     expect_agreement(compare(drawn(Estimator::Reservoir), radiance(listed()), 800), "shared");
 }
 
-/// Two texels side by side, metal of colour 1 and dielectric of 0.05: F0 = lerp(0.04, colour, metalness) over the edge.
-TEST(SharedNumbers, MakeTheEdgeOfAMetalRight) {
-    const auto f0 = [](double color, double metal) { return 0.04 + metal * (color - 0.04); };
-    constexpr double kMetal = f0(1.0, 1.0), kDielectric = f0(0.05, 0.0);
-    double worst_before = 0, worst_per_map = 0, worst_shared = 0;
-    for (double t = 0; t <= 1; t += 1.0 / 64) {
-        const double truth = kDielectric + t * (kMetal - kDielectric), color = 0.05 + t * 0.95;
-        worst_before = std::max(worst_before, std::abs(f0(color, t) - truth));
-        double per_map = 0, shared = 0;
-        constexpr uint32_t kDraws = 20000;
-        for (uint32_t n = 0; n < kDraws; ++n) {
-            const bool a = texunit::random_float({.sample = n, .dimension = texunit::Dimension::TapX}) < float(t);
-            const bool b = texunit::random_float({.sample = n, .dimension = texunit::Dimension::TapY}) < float(t);
-            per_map += f0(a ? 1.0 : 0.05, b ? 1.0 : 0.0) / kDraws;
-            shared += f0(a ? 1.0 : 0.05, a ? 1.0 : 0.0) / kDraws;
-        }
-        worst_per_map = std::max(worst_per_map, std::abs(per_map - truth));
-        worst_shared = std::max(worst_shared, std::abs(shared - truth));
-    }
-    std::printf("worst F0 error: before %.4f, per-map %.4f, shared %.4f\n", worst_before, worst_per_map, worst_shared);
-    EXPECT_NEAR(worst_before, 0.2375, 0.001);
-    EXPECT_NEAR(worst_per_map, 0.2375, 0.02);
-    EXPECT_LT(worst_shared, 0.02);
-}
-
 TEST_F(FilteringTest, MaskAndBlendDecideWithTheTexelThatIsShaded) {
     for (const AlphaMode mode : {AlphaMode::Mask, AlphaMode::Blend}) {
         scene_ = {};

@@ -167,6 +167,53 @@ TEST(SharedDraw, DrawsTuplesWithTheirListedWeights) {
     EXPECT_GT(tested, 200);
 }
 
+/// Two texels side by side, metal of colour 1 and dielectric of 0.05: F0 = lerp(0.04, colour, metalness) over the edge. Filtered before
+/// shading it is that of the mean maps; with numbers of their own the maps draw the product of their means.
+TEST(SharedDraw, MakesTheEdgeOfAMetalRight) {
+    const auto color = [](int texel) { return texel == 1 ? 1.0 : 0.05; };
+    const auto f0 = [](double base, double metal) { return 0.04 + metal * (base - 0.04); };
+    double worst_before = 0, worst_per_map = 0, worst_shared = 0, worst_drawn = 0;
+    for (int step = 0; step <= 32; ++step) {
+        const double t = step / 32.0, truth = f0(0.05, 0) + t * (f0(1, 1) - f0(0.05, 0));
+        OwnedSet owned;
+        for (int map = 0; map < 2; ++map)
+            owned.add(2, 1, sampler_of(Kernel::Bilinear, MipMode::None, Wrap::ClampToEdge, 1), {float(0.25 + 0.5 * t), 0.5f, 0, 0, 0, 0});
+        const LookupSet both = owned.set();
+        LookupSet one = both, other = both;
+        one.count = other.count = 1;
+        other.lookup[0] = both.lookup[1];
+        double shared = 0, per_map = 0, mean_color = 0, mean_metal = 0;
+        for (const auto& [tuple, weight] : enumerated(both)) shared += weight * f0(color(std::get<2>(tuple[0])), std::get<2>(tuple[1]));
+        for (const auto& [a, weight_a] : enumerated(one))
+            for (const auto& [b, weight_b] : enumerated(other))
+                per_map += weight_a * weight_b * f0(color(std::get<2>(a[0])), std::get<2>(b[0]));
+        for (const auto& [a, weight] : enumerated(one)) mean_color += weight * color(std::get<2>(a[0]));
+        for (const auto& [b, weight] : enumerated(other)) mean_metal += weight * std::get<2>(b[0]);
+        constexpr uint32_t kWaves = 1000;
+        double drawn = 0;
+        for (uint32_t n = 0; n < kWaves; ++n) {
+            DrawNumbers positive, negative;
+            draw_numbers({.sample = n}, positive);
+            negative_draw_numbers({.sample = n}, negative);
+            draw_shared(both, positive, negative, [&](const SharedTap& tap) {
+                for (int lane = 0; lane < kWaveLanes; ++lane) drawn += f0(color(tap.draw[0].x[lane]), tap.draw[1].x[lane]);
+            });
+        }
+        drawn /= double(kWaves) * kWaveLanes;
+        worst_before = std::max(worst_before, std::abs(f0(mean_color, mean_metal) - truth));
+        worst_per_map = std::max(worst_per_map, std::abs(per_map - truth));
+        worst_shared = std::max(worst_shared, std::abs(shared - truth));
+        worst_drawn = std::max(worst_drawn, std::abs(drawn - truth));
+    }
+    std::printf("worst F0 error: before %.4f, per-map %.4f, shared %.1e, drawn %.4f\n", worst_before, worst_per_map, worst_shared,
+                worst_drawn);
+    EXPECT_NEAR(worst_before, 0.2375, 1e-6);
+    EXPECT_NEAR(worst_per_map, 0.2375, 1e-6);
+    EXPECT_LT(worst_shared, 1e-6);
+    // 32 000 draws between 0.04 and 1: five standard deviations.
+    EXPECT_LT(worst_drawn, 0.0134);
+}
+
 TEST(SharedDraw, PicksTheSameTexelInMapsOfTheSameShape) {
     OwnedSet owned;
     for (int k = 0; k < 3; ++k)
