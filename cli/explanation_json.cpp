@@ -17,8 +17,8 @@ Json numbers(const glm::vec4& v) { return {v.x, v.y, v.z, v.w}; }
 
 /// The maps by their names in a glTF file.
 std::string_view key_of(shading::MapSlot slot) {
-    constexpr std::array<std::string_view, shading::kMapSlots> kKeys{"baseColorTexture", "metallicRoughnessTexture", "normalTexture",
-                                                                     "occlusionTexture", "emissiveTexture"};
+    constexpr std::array<std::string_view, shading::kMapSlots + 1> kKeys{"baseColorTexture", "metallicRoughnessTexture", "normalTexture",
+                                                                         "occlusionTexture", "emissiveTexture",          "layers.mask"};
     return kKeys[size_t(slot)];
 }
 
@@ -118,6 +118,26 @@ Json tap_json(const ExplainedTap& tap) {
     return json;
 }
 
+/// What a surface or one of its branches is made of.
+void add_matter(const ExplainedSurface& surface, Json& json) {
+    json["maps"] = Json::array();
+    for (const ExplainedLookup& lookup : surface.lookups) json["maps"].push_back(lookup_json_of(lookup));
+    if (!surface.averaged.empty()) json["averaged"] = texels_json(surface.averaged);
+    if (surface.taps.empty()) {
+        json["base_color"] = numbers(surface.base_color);
+        if (surface.reflection) add_reflection(*surface.reflection, json);
+    }
+    for (const ExplainedTap& tap : surface.taps) json["taps"].push_back(tap_json(tap));
+}
+
+Json branch_json(const ExplainedSurface& branch) {
+    Json json{{"weight", branch.weight}, {"material", branch.triangle.material_index}, {"material_name", branch.triangle.material->name}};
+    json["normal"] = numbers(branch.normal);
+    add_matter(branch, json);
+    if (branch.radiance) json["radiance"] = numbers(*branch.radiance);
+    return json;
+}
+
 Json surface_json(const ExplainedSurface& surface) {
     Json json = Json::object();
     add_triangle(surface.triangle, json);
@@ -128,14 +148,8 @@ Json surface_json(const ExplainedSurface& surface) {
     json["geometric_normal"] = numbers(surface.geometric_normal);
     json["normal"] = numbers(surface.normal);
     if (surface.vertex_color) json["vertex_color"] = numbers(*surface.vertex_color);
-    json["maps"] = Json::array();
-    for (const ExplainedLookup& lookup : surface.lookups) json["maps"].push_back(lookup_json_of(lookup));
-    if (!surface.averaged.empty()) json["averaged"] = texels_json(surface.averaged);
-    if (surface.taps.empty()) {
-        json["base_color"] = numbers(surface.base_color);
-        if (surface.reflection) add_reflection(*surface.reflection, json);
-    }
-    for (const ExplainedTap& tap : surface.taps) json["taps"].push_back(tap_json(tap));
+    add_matter(surface, json);
+    for (const ExplainedSurface& branch : surface.branches) json["branches"].push_back(branch_json(branch));
     return json;
 }
 

@@ -96,26 +96,44 @@ std::string describe(const ExplainedTap& tap) {
     return text + indented(details + "Radiance: " + print_vector(tap.radiance) + "\n", 2);
 }
 
+/// What a surface or one of its branches is made of.
+std::string describe_matter(const ExplainedSurface& surface) {
+    std::string text;
+    for (const ExplainedTexel& texel : surface.averaged)
+        text += "Drawn and averaged, weight " + print_number(texel.weight) + ", " + describe(texel) + "\n";
+    if (!surface.taps.empty()) {
+        text += "Radiance: the sum of weight x radiance over these taps, of which those of positive weight count as far as they cover\n";
+        for (const ExplainedTap& tap : surface.taps) text += describe(tap);
+        return text;
+    }
+    text += "Base colour: " + print_vector(surface.base_color) + "\n";
+    text += "Normal: " + print_vector(surface.normal) + ", of the triangle " + print_vector(surface.geometric_normal) + "\n";
+    if (surface.reflection) return text + describe(*surface.reflection);
+    return surface.triangle.material->unlit ? text + "Unlit: the base colour is the radiance\n" : text;
+}
+
+std::string describe_branch(const ExplainedSurface& branch) {
+    std::string details;
+    for (const ExplainedLookup& lookup : branch.lookups) details += describe(lookup);
+    details += describe_matter(branch);
+    if (branch.radiance) details += "Radiance: " + print_vector(*branch.radiance) + "\n";
+    return "Blended: weight " + print_number(branch.weight) + ", material " + std::to_string(branch.triangle.material_index) +
+           quoted(branch.triangle.material->name) + "\n" + indented(details, 2);
+}
+
 std::string describe(const ExplainedSurface& surface) {
     std::string text = "Surface: " + describe(surface.triangle) + "\n", details;
     if (surface.verdict) details += describe(*surface.verdict, surface.triangle.material->alpha_mode) + "\n";
     details += "Barycentrics: " + print_vector(surface.barycentrics) + "\n";
     details += "Position: " + print_vector(surface.position) + " m, " + print_number(surface.distance) + " m along the view axis\n";
     for (const ExplainedLookup& lookup : surface.lookups) details += describe(lookup);
+    for (const ExplainedSurface& branch : surface.branches) details += describe_branch(branch);
     if (surface.vertex_color) {
         const glm::vec4& color = *surface.vertex_color;
         details += "Vertex colour: " + print_vector(glm::vec3(color)) + "," + print_number(color.a) + "\n";
     }
-    for (const ExplainedTexel& texel : surface.averaged)
-        details += "Drawn and averaged, weight " + print_number(texel.weight) + ", " + describe(texel) + "\n";
-    if (!surface.taps.empty()) {
-        details += "Radiance: the sum of weight x radiance over these taps, of which those of positive weight count as far as they cover\n";
-        for (const ExplainedTap& tap : surface.taps) details += describe(tap);
-        return text + indented(details, 2);
-    }
-    details += "Base colour: " + print_vector(surface.base_color) + "\n";
-    details += "Normal: " + print_vector(surface.normal) + ", of the triangle " + print_vector(surface.geometric_normal) + "\n";
-    details += surface.reflection ? describe(*surface.reflection) : "Unlit: the base colour is the radiance\n";
+    const bool blends_light = !surface.branches.empty() && surface.branches[0].radiance;
+    details += blends_light ? "Radiance: the sum of weight x radiance over what is blended\n" : describe_matter(surface);
     return text + indented(details, 2);
 }
 

@@ -99,6 +99,11 @@ struct ExplainedSurface {
     std::vector<ExplainedLookup> lookups;  ///< in the order of the maps
     std::vector<ExplainedTexel> averaged;  ///< drawn for some of them, averaged before shading
     std::vector<ExplainedTap> taps;
+    /// Planes or layers that are blended. Where they are blended before they are lit the surface itself tells of the blend and its light;
+    /// else its radiance is the sum of weight*radiance over them.
+    std::vector<ExplainedSurface> branches;
+    float weight = 1;                   ///< of a branch
+    std::optional<glm::vec3> radiance;  ///< of a branch that is lit
     std::optional<ExplainedReflection> reflection;
 };
 
@@ -133,7 +138,7 @@ struct ExplainedMean {
 /// Whether both have the same bits.
 bool same_bits(const glm::vec3& a, const glm::vec3& b);
 
-/// "base colour", "metallic and roughness", "normal", "occlusion", "emission".
+/// "base colour", "metallic and roughness", "normal", "occlusion", "emission"; "mask of layers".
 std::string_view name_of(shading::MapSlot slot);
 
 }  // namespace rawtexel::cli

@@ -131,8 +131,20 @@ void PixelWatcher::tapped(const shading::TappedTexels& tapped) {
                                     tapped.numbers->probe[lane], tapped.numbers->sign[lane]};
 }
 
-void PixelWatcher::add_tap(const shading::ShadedFragments& fragments, int lane) {
-    ExplainedTap& tap = surface_->taps.emplace_back();
+void PixelWatcher::masked(const shading::MaskedFragments& masked) {
+    const int lane = lane_of(masked.block);
+    if (lane >= 0) mask_ = explain_lookup(shading::kLayerMask, *masked.map, *masked.at, lane);
+}
+
+void PixelWatcher::branched(const shading::BranchedFragments& branched) {
+    const int lane = lane_of(branched.block);
+    if (lane < 0) return;
+    branches_.emplace_back().weight = (*branched.weight)[lane];
+    branch_begins_ = true;
+}
+
+void PixelWatcher::add_tap(const shading::ShadedFragments& fragments, int lane, ExplainedSurface& surface) {
+    ExplainedTap& tap = surface.taps.emplace_back();
     tap.weight = (*fragments.weight)[lane];
     if (fragments.alpha) tap.alpha = (*fragments.alpha)[lane];
     tap.texels = std::exchange(texels_, {});
@@ -143,33 +155,50 @@ void PixelWatcher::add_tap(const shading::ShadedFragments& fragments, int lane) 
     if (!fragments.draw->material->material->unlit) tap.reflection = explain_reflection(lighting_, *fragments.surface, lane);
 }
 
-void PixelWatcher::shaded(const shading::ShadedFragments& fragments) {
-    const int lane = lane_of(fragments.block);
-    if (lane < 0) return;
-    // Further taps of the surface.
-    if (surface_ && fragments.weight) return add_tap(fragments, lane);
-    const uint32_t setup_index = fragments.setup_index[lane];
+ExplainedSurface PixelWatcher::explain_surface(const shading::ShadedFragments& fragments, int lane) {
     const float b1 = fragments.weights->b1[lane], b2 = fragments.weights->b2[lane];
     const glm::vec3 position = at_lane(fragments.fragment->position, lane);
     const shading::SurfaceWave& surface = *fragments.surface;
-    surface_ = ExplainedSurface{
-        .triangle = explain_triangle(*fragments.draw, fragments.frame->triangle(setup_index)),
-        .verdict = {},
-        .barycentrics = {1.0f - b1 - b2, b1, b2},
-        .position = position,
-        .distance = glm::dot(position - rays_.eye, rays_.forward),
-        .normal = at_lane(surface.normal, lane),
-        .geometric_normal = at_lane(surface.geometric_normal, lane),
-        .vertex_color = vertex_color(fragments, lane),
-        .base_color = at_lane(surface.base_color, lane),
-        .lookups = explain_lookups(fragments, lane),
-        .averaged = std::exchange(averaged_, {}),
-        .taps = {},
-        .reflection = {},
-    };
-    if (!surface_->triangle.material->unlit) surface_->reflection = explain_reflection(lighting_, surface, lane);
-    if (fragments.weight) add_tap(fragments, lane);
-    const auto asked = std::ranges::find(judged_, setup_index, &Judged::setup_index);
+    ExplainedSurface explained;
+    explained.triangle = explain_triangle(*fragments.draw, fragments.frame->triangle(fragments.setup_index[lane]));
+    explained.barycentrics = {1.0f - b1 - b2, b1, b2};
+    explained.position = position;
+    explained.distance = glm::dot(position - rays_.eye, rays_.forward);
+    explained.normal = at_lane(surface.normal, lane);
+    explained.geometric_normal = at_lane(surface.geometric_normal, lane);
+    explained.vertex_color = vertex_color(fragments, lane);
+    explained.base_color = at_lane(surface.base_color, lane);
+    explained.averaged = std::exchange(averaged_, {});
+    // Of branches together the first one's light is that of the blend.
+    const bool unlit = explained.triangle.material->unlit;
+    if (fragments.lit && !unlit) explained.reflection = explain_reflection(lighting_, surface, lane);
+    return explained;
+}
+
+void PixelWatcher::shaded(const shading::ShadedFragments& fragments) {
+    const int lane = lane_of(fragments.block);
+    if (lane < 0) return;
+    if (fragments.branch) {
+        ExplainedSurface& branch = branches_.back();
+        if (std::exchange(branch_begins_, false)) {
+            const float weight = branch.weight;
+            branch = explain_surface(fragments, lane);
+            branch.weight = weight;
+            branch.lookups = explain_lookups(fragments, lane);
+        }
+        if (fragments.weight) return add_tap(fragments, lane, branch);
+        if (fragments.lit) branch.radiance = at_lane(*fragments.radiance, lane);
+        return;
+    }
+    // Further taps of the surface.
+    if (surface_ && fragments.weight) return add_tap(fragments, lane, *surface_);
+    surface_ = explain_surface(fragments, lane);
+    surface_->branches = std::exchange(branches_, {});
+    if (mask_) surface_->lookups.push_back(*std::exchange(mask_, std::nullopt));
+    if (surface_->branches.empty())
+        for (ExplainedLookup& lookup : explain_lookups(fragments, lane)) surface_->lookups.push_back(lookup);
+    if (fragments.weight) add_tap(fragments, lane, *surface_);
+    const auto asked = std::ranges::find(judged_, fragments.setup_index[lane], &Judged::setup_index);
     if (asked != judged_.end()) surface_->verdict = asked->candidate.verdict;
 }
 

@@ -16,6 +16,8 @@ class PixelWatcher final : public shading::FragmentListener {
     PixelWatcher(int x, int y, const shading::RenderOptions& options, const shading::Lighting& lighting);
 
     void judged(const shading::JudgedFragments& fragments) override;
+    void masked(const shading::MaskedFragments& masked) override;
+    void branched(const shading::BranchedFragments& branched) override;
     void tapped(const shading::TappedTexels& tapped) override;
     void shaded(const shading::ShadedFragments& fragments) override;
     void sampled(const shading::SampledPixels& pixels) override;
@@ -30,7 +32,8 @@ class PixelWatcher final : public shading::FragmentListener {
     };
     /// The pixel's lane, -1 where it is not among the block's.
     int lane_of(const shading::WatchedBlock& block) const;
-    void add_tap(const shading::ShadedFragments& fragments, int lane);
+    ExplainedSurface explain_surface(const shading::ShadedFragments& fragments, int lane);
+    void add_tap(const shading::ShadedFragments& fragments, int lane, ExplainedSurface& surface);
     AlphaVerdict verdict(const shading::JudgedFragments& fragments, int lane) const;
     /// Takes those of judged_ that let through what is seen at `depth`.
     std::vector<ExplainedCandidate> take_let_through(float depth);
@@ -44,6 +47,9 @@ class PixelWatcher final : public shading::FragmentListener {
     // Of the sample at hand.
     std::vector<Judged> judged_;
     std::optional<ExplainedSurface> surface_;
+    std::vector<ExplainedSurface> branches_;  ///< of the surface that is told of next
+    bool branch_begins_ = false;              ///< the last of them has nothing but its weight
+    std::optional<ExplainedLookup> mask_;
     std::vector<ExplainedTexel> averaged_, texels_;  ///< of the surface, of the tap that is shaded next
     std::optional<ExplainedNumbers> numbers_;
     std::vector<ExplainedSample> samples_;

@@ -45,6 +45,19 @@ struct TappedTexels {
     bool averaged = false;  ///< with others before shading
 };
 
+/// The mask of layers was looked up.
+struct MaskedFragments {
+    WatchedBlock block;
+    const MapState* map = nullptr;
+    const texunit::WaveCoordinates* at = nullptr;
+};
+
+/// One of several planes or layers begins that are blended: what is tapped and shaded next, with `branch` set, is of it.
+struct BranchedFragments {
+    WatchedBlock block;
+    const WaveFloat* weight = nullptr;
+};
+
 /// Surfaces of one draw that are seen, each lane on its own triangle, shaded.
 struct ShadedFragments {
     WatchedBlock block;
@@ -59,6 +72,8 @@ struct ShadedFragments {
     /// Of one tap among several that are added up: shading/tap_sum-inl.h. Null: what is seen.
     const WaveFloat* weight = nullptr;
     const WaveFloat* alpha = nullptr;  ///< of the tap, where its texel decides what it covers
+    bool branch = false;               ///< of the plane or layer begun last; what is seen comes after all of them
+    bool lit = true;                   ///< false: `radiance` is not this surface's, or that of its branches
 };
 
 /// What a block's pixels got for one sample.
@@ -74,6 +89,8 @@ class FragmentListener {
   public:
     virtual ~FragmentListener() = default;
     virtual void judged(const JudgedFragments& fragments) = 0;
+    virtual void masked(const MaskedFragments&) {}
+    virtual void branched(const BranchedFragments&) {}
     virtual void tapped(const TappedTexels&) {}
     virtual void shaded(const ShadedFragments& fragments) = 0;
     virtual void sampled(const SampledPixels& pixels) = 0;

@@ -173,8 +173,13 @@ class TileRenderer {
         scratch_.fragment_listener->tapped(tapped);
     }
 
-    /// `weight` and `alpha`: of one tap among several.
-    void tell_shaded(const DrawState& draw, WaveMask pass, const WaveFloat* weight, const WaveFloat* alpha) {
+    /// What of a surface was shaded: by itself, one tap of it, or not lit.
+    struct ShadedPart {
+        const WaveFloat* weight = nullptr;
+        const WaveFloat* alpha = nullptr;
+        bool lit = true;
+    };
+    void tell_shaded(const DrawState& draw, WaveMask pass, const ShadedPart& part) {
         scratch_.fragment_listener->shaded({.block = {wave_.x, wave_.y, wave_.sample, pass},
                                             .draw = &draw,
                                             .frame = &frame_,
@@ -184,8 +189,10 @@ class TileRenderer {
                                             .maps = maps_.slot,
                                             .surface = &surface_,
                                             .radiance = &radiance_,
-                                            .weight = weight,
-                                            .alpha = alpha});
+                                            .weight = part.weight,
+                                            .alpha = part.alpha,
+                                            .branch = in_branch_,
+                                            .lit = part.lit});
     }
 
     /// Of the wave at pixel (x, y) of the tile.
@@ -301,7 +308,9 @@ class TileRenderer {
                      [&](const auto& corners) HWY_ATTR { branches_.prepare(draw, corners, weights_); });
         branch_sum_.clear();
         branches_.for_each(
-            draw, seen.lanes, wave_address(), [](const MaskLookup&) {}, [&](const Branch& branch) { shade_branch(draw, seen, branch); });
+            draw, seen.lanes, wave_address(), [&](const MaskLookup& mask) { tell_masked(mask); },
+            [&](const Branch& branch) { shade_branch(draw, seen, branch); });
+        in_branch_ = false;
         if (material.blend == Blend::Draw) return;
         if (material.blends_light) {
             branch_sum_.light(radiance_, surface_);
@@ -310,7 +319,12 @@ class TileRenderer {
             const MaterialState& lit = material.layer_count > 0 ? *material.layers[0] : material;
             light_surface(*lit.material, seen.lanes);
         }
+        if (watched()) tell_shaded(draw, seen.lanes, {.lit = !material.blends_light});
         store_pass(draw, seen.lanes);
+    }
+
+    void tell_masked(const MaskLookup& mask) {
+        if (watched()) scratch_.fragment_listener->masked({{wave_.x, wave_.y, wave_.sample, mask.lanes}, mask.map, mask.at});
     }
 
     /// Stored where it was drawn, else added to branch_sum_.
@@ -318,11 +332,15 @@ class TileRenderer {
         with_corners(frame_, *draw.mesh, wave_.setup_index, seen, [&](const auto& corners) HWY_ATTR {
             interpolate_fragment(*branch.draw, corners, weights_, fragment_, branch.planes);
         });
+        in_branch_ = branch.weight != nullptr;
+        if (watched() && in_branch_) scratch_.fragment_listener->branched({{wave_.x, wave_.y, wave_.sample, branch.lanes}, branch.weight});
         if (!branch.weight) {
             shade_fragments(*branch.draw, branch.lanes);
             store_pass(draw, branch.lanes);
         } else if (draw.material->blends_light) {
             shade_fragments(*branch.draw, branch.lanes);
+            // Its taps have been told of one by one.
+            if (watched() && branch.draw->material->plans.draws()) tell_shaded(*branch.draw, branch.lanes, {});
             branch_sum_.add_light(*branch.weight, branch.lanes, radiance_, surface_);
         } else {
             find_branch_surface(*branch.draw, branch.lanes);
@@ -351,7 +369,7 @@ class TileRenderer {
             if (wants_lod) find_lod(material.maps[kBaseColor], pass, lod);
         } else {
             shade_maps(draw, pass);
-            if (watched()) tell_shaded(draw, pass, nullptr, nullptr);
+            if (watched()) tell_shaded(draw, pass, {});
         }
         if (wants_lod) store_wave(lod, pass, first_sample_plane(inputs_.planes.lod, wave_.index));
     }
@@ -376,7 +394,7 @@ class TileRenderer {
         }
         if (wants_lod) store_wave(lod, pass, first_sample_plane(inputs_.planes.lod, wave_.index));
         find_surface(draw, fragment_, maps_, surface_);
-        if (watched()) tell_shaded(draw, pass, nullptr, nullptr);
+        if (watched()) tell_shaded(draw, pass, {.lit = false});
     }
 
     /// From surface_ to radiance_.
@@ -422,7 +440,7 @@ class TileRenderer {
         if (!material.plans.averaged.empty()) average_taps(taps_, material.plans.averaged, maps_.slot);
         if (material.plans.shaded.empty()) {
             shade_maps(draw, pass);
-            if (watched()) tell_shaded(draw, pass, nullptr, nullptr);
+            if (watched()) tell_shaded(draw, pass, {});
             return;
         }
 
@@ -433,7 +451,7 @@ class TileRenderer {
         for_each_shaded_tap(taps_, material.plans.shaded, maps_.slot, [&](const WaveFloat& weight, WaveMask lanes) HWY_ATTR {
             shade_maps(draw, lanes);
             if (covers) find_alpha(*material.material, &maps_.slot[kBaseColor].channel[3], vertex, alpha);
-            if (watched()) tell_shaded(draw, lanes, &weight, covers ? &alpha : nullptr);
+            if (watched()) tell_shaded(draw, lanes, {&weight, covers ? &alpha : nullptr});
             tap_sum_.add(*material.material, {&radiance_, &surface_, &weight, covers ? &alpha : nullptr, lanes});
         });
         tap_sum_.radiance(radiance_);
@@ -510,6 +528,7 @@ class TileRenderer {
     AlphaCoverage coverage_;
     raster::SampleOffset frame_offset_;
     bool first_sample_ = false;
+    bool in_branch_ = false;  ///< what is shaded is blended with other branches
     // Lanes that nobody asked for are computed along with their neighbours, so they hold numbers from the start.
     PixelWave wave_{};
     raster::BarycentricWave weights_{};

@@ -172,6 +172,68 @@ TEST_F(ExplainTest, TapsAddUpToTheSample) {
     EXPECT_GT(taps, 60);
 }
 
+/// Planes and layers: blended light adds up from the branches, what is blended first adds up from the light, and every way to the pixel.
+TEST(ExplainBranches, PlanesAndLayersAddUpToTheSample) {
+    struct Place {
+        const char* scene;
+        int x, y;
+    };
+    int blended = 0, lit = 0, drawn = 0, masks = 0;
+    for (const Place& place : {Place{"triplanar", 58, 30}, {"layers", 48, 40}}) {
+        for (const Words& way : {Words{},
+                                 {"--order", "after"},
+                                 {"--estimator", "reservoir", "--blend", "all"},
+                                 {"--estimator", "reservoir"},
+                                 {"--blend", "draw"},
+                                 {"--estimator", "reservoir", "--taps", "2", "--order", "before"}}) {
+            const std::string what = std::string(place.scene) + " " + testing::PrintToString(way);
+            const Words words = joined(
+                {"explain", place.scene, "--json", "--size", "96x54", "--pixel", std::to_string(place.x) + "," + std::to_string(place.y)},
+                way);
+            const test::Outcome outcome = run(words);
+            ASSERT_EQ(outcome.code, kDone) << outcome.err;
+            const Json json = Json::parse(outcome.out);
+            EXPECT_EQ(json["rendered"], json["mean"]) << what;
+            const Json& sample = json["samples"][0];
+            ASSERT_FALSE(sample["surface"].is_null()) << what;
+            const Json& surface = sample["surface"];
+            for (const Json& lookup : surface["maps"]) masks += lookup["map"] == "layers.mask";
+            const bool blends = surface.contains("branches");
+            if (!blends) {
+                ++drawn;
+                if (surface.contains("taps")) {
+                    EXPECT_EQ(sum_of_taps(surface), radiance_of(sample["radiance"])) << what;
+                }
+            } else if (surface["branches"][0].contains("radiance")) {
+                Radiance sum{};
+                for (const Json& branch : surface["branches"]) {
+                    const float weight = branch["weight"].get<float>();
+                    const Radiance radiance = radiance_of(branch["radiance"]);
+                    for (size_t c = 0; c < 3; ++c) sum[c] += weight * radiance[c];
+                    if (branch.contains("taps")) {
+                        EXPECT_EQ(sum_of_taps(branch), radiance) << what;
+                    }
+                }
+                EXPECT_EQ(sum, radiance_of(sample["radiance"])) << what;
+                ++lit;
+            }
+            if (surface.contains("light")) {
+                Radiance sum{};
+                for (const Json& term : surface["light"]) {
+                    const Radiance radiance = radiance_of(term["radiance"]);
+                    for (size_t c = 0; c < 3; ++c) sum[c] += radiance[c];
+                }
+                EXPECT_EQ(sum, radiance_of(sample["radiance"])) << what;
+                blended += blends;
+            }
+        }
+    }
+    EXPECT_EQ(blended, 2);
+    EXPECT_EQ(lit, 4);
+    EXPECT_EQ(drawn, 6);
+    EXPECT_EQ(masks, 6);
+}
+
 TEST_F(ExplainTest, AddsUpAtEveryStep) {
     int lit = 0, unlit = 0;
     for (const auto& [x, y] : {std::pair{20, 14}, {16, 18}, {24, 12}}) {
