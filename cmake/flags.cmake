@@ -16,8 +16,8 @@ target_compile_options(rawtexel_warnings INTERFACE -Wall -Wextra -Wshadow -Wconv
   # g++ 12 reports the deliberately undefined vectors of its own AVX-512 header, and sums of its own strings (PR 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized -Wno-maybe-uninitialized -Wno-restrict>)
 
-# rawtexel_precompile(TARGET HEADER...) parses foreign headers once for the whole target: half of what compiling a test takes. A source
-# still includes whatever it uses.
+# rawtexel_precompile(TARGET HEADER...) parses foreign headers once for a whole target of tests, half of what compiling one takes. A source
+# still includes whatever it uses. Optimised code is better off without: g++ 12 then takes system headers for ours and warns about them.
 function(rawtexel_precompile target)
   target_precompile_headers(${target} PRIVATE ${ARGN})
   # Lets ccache see what the precompiled header was made of.
