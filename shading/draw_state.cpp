@@ -120,8 +120,9 @@ MaterialState make_material_state(const Scene& scene, uint32_t index, const Look
     MaterialState state;
     state.material = &scene.materials[index];
     state.index = index;
-    state.blend = overrides.filtering.effective_blend();
-    state.blends_light = overrides.filtering.effective_order() == FilterOrder::After;
+    const FilteringOptions filtering = apply(state.material->policy, overrides.filtering);
+    state.blend = filtering.effective_blend();
+    state.blends_light = filtering.effective_order() == FilterOrder::After;
     state.plans.noise = overrides.filtering.noise;
     if (state.material->layers) {
         add_mask(scene, overrides, state);
