@@ -76,6 +76,19 @@ void declare_lookup_options(CommandLine& line, LookupOptions& lookup) {
     declare_texture_options(line, lookup.files);
 }
 
+void check_texture_jitter(const LookupOptions& lookup) {
+    if (lookup.filtering.texture_jitter == shading::TextureJitter::None) return;
+    const std::string option = "--texture-jitter " + std::string(to_string(lookup.filtering.texture_jitter));
+    if (lookup.mip != MipMode::None) throw UsageError(option + " filters minified textures by itself (allowed: with --mip none)");
+    if (!(lookup.footprint == shading::FootprintOptions{}))
+        throw UsageError(option +
+                         " looks up points without footprints (not allowed with --aniso, --ewa, --lod-*, --hybrid-bias, "
+                         "--derivatives and --footprint)");
+    if (lookup.filtering.baseline != shading::Baseline::None)
+        throw UsageError(option + ": --baseline " + std::string(to_string(lookup.filtering.baseline)) +
+                         " says itself how maps are looked up");
+}
+
 std::vector<std::pair<std::string, std::string>> print_choices(const LookupOptions& lookup) {
     const shading::FootprintOptions& footprint = lookup.footprint;
     return {{"filter", print_filter(lookup.filter)},
@@ -93,6 +106,7 @@ std::vector<std::pair<std::string, std::string>> print_choices(const LookupOptio
             {"random", std::string(to_string(lookup.filtering.sharing))},
             {"blend", std::string(to_string(lookup.filtering.effective_blend()))},
             {"shadow-taps", std::string(to_string(lookup.filtering.shadow_taps))},
+            {"texture-jitter", std::string(to_string(lookup.filtering.texture_jitter))},
             {"noise", std::string(to_string(lookup.filtering.noise))},
             {"signed-numbers", lookup.filtering.common_numbers ? "common" : "independent"},
             {"baseline", std::string(to_string(lookup.filtering.baseline))},
