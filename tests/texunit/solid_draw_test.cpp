@@ -1,0 +1,214 @@
+// Draws in volumes, cube maps and arrays: listed, repeated on every instruction set, and told.
+#include "texunit/draw_trace.h"
+
+#include "tests/texunit/drawn_places.h"
+#include "tests/texunit/hashed_source.h"
+#include "tests/texunit/placed_lookup.h"
+#include "texunit/simd.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace rawtexel::texunit {
+namespace {
+
+const Kernel kKernels[] = {Kernel::Nearest,    Kernel::Bilinear, Kernel::Quadratic, Kernel::BSpline,        Kernel::mitchell(),
+                           Kernel::CatmullRom, Kernel::Lanczos2, Kernel::Lanczos3,  Kernel::gaussian(0.6f), Kernel::gaussian_point(0.5f)};
+constexpr Wrap kWraps[] = {Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge, Wrap::ClampToBorder, Wrap::MirrorOnce};
+
+std::unique_ptr<Texture> hashed(const Shape& shape) {
+    return std::make_unique<Texture>("hashed", std::make_unique<HashedSource>(Format::RGBA8Unorm, shape));
+}
+
+const Shape kArray{.width = 20, .height = 12, .layers = 3, .levels = 3}, kVolume{.width = 12, .height = 10, .depth = 9, .levels = 3},
+    kCube{.width = 8, .height = 8, .layers = 12, .levels = 3, .cube = true};
+
+/// Places near edges and corners more often than not.
+struct Places {
+    std::mt19937 random{17};
+    float unit() { return std::uniform_real_distribution<float>(-1, 1)(random); }
+
+    LaneCoordinates3 next_solid(bool cube) {
+        LaneCoordinates3 at;
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const bool beside_edge = random() % 2 == 0;
+            at.position[axis] = beside_edge ? (random() % 2 == 0 ? 1.0f : cube ? -1.0f : 0.0f) + 0.04f * unit() : unit();
+            at.dx[axis] = (cube ? 0.3f : 0.12f) * unit();
+        }
+        return at;
+    }
+    LaneCoordinates next_flat() { return {1.02f * unit(), unit(), 0.1f * unit(), 0.1f * unit(), 0, 0.05f}; }
+};
+
+void spread(const LaneCoordinates3& at, PlacedLookup& lookup) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+        std::fill_n(lookup.solid.position[axis].lane, kWaveLanes, at.position[axis]);
+        std::fill_n(lookup.solid.dx[axis].lane, kWaveLanes, at.dx[axis]);
+    }
+}
+
+/// A lookup of `texture` and what the deterministic one weighs.
+struct Weighed {
+    PlacedLookup lookup;
+    std::map<Place, double> weights;
+};
+Weighed next_lookup(Texture& texture, const SamplerState& sampler, Places& places) {
+    Weighed weighed{{.texture = &texture, .sampler = sampler}, {}};
+    std::fill_n(weighed.lookup.layer.lane, kWaveLanes, 1.0f);
+    if (!weighed.lookup.is_solid()) {
+        const LaneCoordinates at = places.next_flat();
+        weighed.lookup.at = everywhere(at);
+        weighed.weights = weights_of(trace_lookup(texture, sampler, at, 1));
+        return weighed;
+    }
+    const bool cube = texture.shape().cube;
+    const LaneCoordinates3 at = places.next_solid(cube);
+    spread(at, weighed.lookup);
+    weighed.weights = weights_of(cube ? trace_cube_lookup(texture, sampler, at, 1) : trace_volume_lookup(texture, sampler, at));
+    return weighed;
+}
+
+/// Two lookups that share their numbers: each keeps its own weights.
+TEST(SolidDraw, ListsTheWeightsOfLookups) {
+    Places places;
+    double worst = 0;
+    int cases = 0;
+    for (const Shape& shape : {kArray, kVolume, kCube}) {
+        const std::unique_ptr<Texture> texture = hashed(shape);
+        const std::unique_ptr<Texture> other = hashed({.width = 5, .height = 7, .depth = 3, .levels = 2});
+        for (const Kernel& kernel : kKernels) {
+            // Six taps an axis of a volume make half a million tuples a pair.
+            const bool alone = shape.depth > 1 && (kernel == Kernel::Lanczos3 || kernel.kind == KernelKind::Gaussian);
+            for (const MipMode mip : {MipMode::None, MipMode::Nearest, MipMode::Linear}) {
+                if (alone && mip == MipMode::Linear) continue;
+                SamplerState sampler{.magnify = kernel, .minify = kernel, .mip = mip};
+                sampler.wrap_s = kWraps[cases % 5], sampler.wrap_t = kWraps[cases / 5 % 5], sampler.wrap_r = kWraps[cases / 3 % 5];
+                const Weighed expected[2] = {next_lookup(*texture, sampler, places),
+                                             next_lookup(*other, {.magnify = Kernel::Bilinear, .minify = Kernel::Bilinear}, places)};
+                LookupSet set = expected[0].lookup.set();
+                if (!alone) set.lookup[set.count++] = expected[1].lookup.set().lookup[0];
+                set.mask = 1;
+                std::map<Place, double> found[2];
+                enumerate_shared(set, [&](const SharedTap& tap) {
+                    for (int k = 0; k < set.count; ++k) found[k][place_of(tap.draw[k], 0)] += double(tap.weight[0]);
+                });
+                for (int k = 0; k < set.count; ++k) {
+                    std::map<Place, double> weights = expected[k].weights;
+                    for (const auto& [place, weight] : found[k]) weights.try_emplace(place, 0.0);
+                    for (const auto& [place, weight] : weights) {
+                        worst = std::max(worst, std::abs(found[k][place] - weight));
+                        EXPECT_NEAR(found[k][place], weight, 2e-6)
+                            << to_string(kernel) << ' ' << to_string(mip) << " cube " << shape.cube << " lookup " << k;
+                    }
+                }
+                ++cases;
+            }
+        }
+    }
+    std::printf("%d cases, largest difference %.2e\n", cases, worst);
+}
+
+class SolidDrawOnSimd : public testing::TestWithParam<Simd> {};
+
+TEST_P(SolidDrawOnSimd, PicksTheSameTexelsAndReadsThem) {
+    const Simd before = chosen_simd();
+    for (const Shape& shape : {kArray, kVolume, kCube}) {
+        const std::unique_ptr<Texture> texture = hashed(shape);
+        Places places;
+        for (uint32_t n = 0; n < 120; ++n) {
+            const Kernel& kernel = kKernels[n % std::size(kKernels)];
+            PlacedLookup lookup{.texture = texture.get(), .sampler = {.magnify = Kernel::Bilinear, .minify = kernel}};
+            lookup.sampler.wrap_s = kWraps[n % 5], lookup.sampler.wrap_t = kWraps[n / 5 % 5], lookup.sampler.wrap_r = kWraps[n / 7 % 5];
+            if (n % 3 == 0 && refusal(Estimator::Jitter, kernel).empty()) lookup.sampler.estimator = Estimator::Jitter;
+            lookup.sampler.border = {0.5f, 0.25f, 2, 1};
+            for (int lane = 0; lane < kWaveLanes; ++lane) {
+                const LaneCoordinates3 at = places.next_solid(shape.cube);
+                for (size_t axis = 0; axis < 3; ++axis)
+                    lookup.solid.position[axis][lane] = at.position[axis], lookup.solid.dx[axis][lane] = at.dx[axis];
+                lookup.at.u[lane] = at.position[0], lookup.at.v[lane] = at.position[1], lookup.at.dudx[lane] = 0.1f * places.unit();
+                lookup.layer[lane] = float(lane % 3);
+            }
+            DrawNumbers positive, negative;
+            draw_numbers({.sample = n}, positive), draw_depth_numbers({.sample = n}, positive);
+            negative_draw_numbers({.sample = n}, negative), negative_draw_depth_numbers({.sample = n}, negative);
+            const auto draw = [&](Simd simd) {
+                EXPECT_TRUE(choose_simd(simd));
+                std::vector<SharedTap> taps;
+                draw_shared(lookup.set(), positive, negative, [&](const SharedTap& tap) { taps.push_back(tap); });
+                return taps;
+            };
+            const std::vector<SharedTap> expected = draw(Simd::Scalar), found = draw(GetParam());
+            ASSERT_EQ(found.size(), expected.size());
+            for (size_t k = 0; k < found.size(); ++k) {
+                WaveColor colour;
+                read_drawn_wave(*texture, lookup.sampler, found[k].draw[0], colour);
+                EXPECT_EQ(found[k].lanes, expected[k].lanes);
+                for (int lane = 0; lane < kWaveLanes; ++lane) {
+                    if ((found[k].lanes >> lane & 1) == 0) continue;
+                    const Place place = place_of(found[k].draw[0], lane);
+                    EXPECT_EQ(place, place_of(expected[k].draw[0], lane)) << n << ' ' << to_string(kernel);
+                    EXPECT_EQ(found[k].weight[lane], expected[k].weight[lane]);
+                    const auto [level, slice, x, y] = place;
+                    const std::array<float, 4> texel = level < 0 ? lookup.sampler.border : texture->texel(level, slice, x, y);
+                    for (int c = 0; c < 4; ++c) EXPECT_EQ(colour.channel[c][lane], texel[size_t(c)]);
+                }
+            }
+        }
+    }
+    ASSERT_TRUE(choose_simd(before));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SolidDrawOnSimd, testing::ValuesIn(available_simd()),
+                         [](const auto& tested) { return std::string(to_string(tested.param)); });
+
+/// The mean of many draws, told one by one, is the lookup; each role's number is the one of its address.
+TEST(DrawTraces, AverageToTheLookupAndTellTheNumbersOfTheirAddress) {
+    constexpr int kDraws = 20000;
+    const std::unique_ptr<Texture> cube = hashed(kCube), volume = hashed(kVolume), flat = hashed(kArray);
+    for (const Kernel& kernel : {Kernel::BSpline, Kernel::Lanczos2}) {
+        const SamplerState sampler{.magnify = kernel, .minify = kernel, .mip = MipMode::Linear, .estimator = Estimator::Reservoir};
+        const LaneCoordinates at{0.98f, 0.03f, 0.09f, 0.01f, 0, 0.1f};
+        const LaneCoordinates3 solid{{1, 0.97f, -0.96f}, {0.3f, 0.1f, 0}, {0, 0.1f, 0.2f}};
+        const DrawSource source{.address = {.x = 5, .y = 9, .sample = 40, .seed = 3}, .draws = kDraws};
+        const std::pair<DrawTrace, LookupTrace> traces[] = {
+            {trace_draws(*flat, sampler, at, source, 2), trace_lookup(*flat, sampler, at, 2)},
+            {trace_volume_draws(*volume, sampler, solid, source), trace_volume_lookup(*volume, sampler, solid)},
+            {trace_cube_draws(*cube, sampler, solid, source, 1), trace_cube_lookup(*cube, sampler, solid, 1)}};
+        for (const auto& [drawn, weighed] : traces) {
+            for (size_t c = 0; c < 4; ++c) {
+                std::vector<double> values(kDraws);
+                double squares = 0;
+                for (const DrawnTap& tap : drawn.taps) values[size_t(tap.draw)] += tap.tap.weight * kDraws * double(tap.tap.value[c]);
+                for (const double value : values) squares += (value - double(weighed.result[c])) * (value - double(weighed.result[c]));
+                const double deviation = std::sqrt(squares) / kDraws;
+                EXPECT_LT(std::abs(double(drawn.result[c] - weighed.result[c])), 5.6 * deviation + 1e-5) << to_string(kernel) << c;
+            }
+            for (const size_t n : {size_t(0), drawn.taps.size() - 1}) {
+                const DrawnTap& tap = drawn.taps[n];
+                RandomAddress address = source.address;
+                address.sample += uint32_t(tap.draw);
+                const auto number = [&](Dimension dimension) {
+                    address.dimension = dimension;
+                    return random_float(address);
+                };
+                const bool negative = tap.tap.weight < 0;
+                EXPECT_EQ(tap.numbers.x, number(negative ? Dimension::NegativeX : Dimension::TapX));
+                EXPECT_EQ(tap.numbers.y, number(negative ? Dimension::NegativeY : Dimension::TapY));
+                EXPECT_EQ(tap.numbers.level, number(Dimension::Level));
+                EXPECT_FALSE(tap.numbers.probe);
+                EXPECT_EQ(tap.numbers.z.has_value(), &drawn != &traces[0].first);
+                if (tap.numbers.z) {
+                    EXPECT_EQ(*tap.numbers.z, number(negative ? Dimension::NegativeZ : Dimension::TapZ));
+                }
+                EXPECT_EQ(tap.numbers.sign.has_value(), !weighs_as_probability(kernel));
+                if (tap.numbers.sign) {
+                    EXPECT_EQ(*tap.numbers.sign, number(negative ? Dimension::NegativeSign : Dimension::Sign));
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rawtexel::texunit
