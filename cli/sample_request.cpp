@@ -116,14 +116,14 @@ void check_draws(const SampleRequest& request) {
     if (sampler.ellipse > 0) {
         if (sampler.estimator == texunit::Estimator::AbsWeight)
             throw UsageError("--estimator abs-weight: the ellipse of --ewa has no negative weights; reservoir and jitter draw it");
-        if (draws.common_numbers) throw UsageError("--signed-numbers: the ellipse of --ewa has no negative weights");
+        if (draws.common_numbers.has_value()) throw UsageError("--signed-numbers: the ellipse of --ewa has no negative weights");
         return;
     }
     const std::string kernel = to_string(sampler.minify);
     const std::string_view reason = texunit::refusal(sampler.estimator, sampler.minify);
     if (!reason.empty()) throw UsageError("--estimator: " + estimator + " cannot draw " + kernel + ", " + std::string(reason));
     const bool is_signed = !texunit::weighs_as_probability(sampler.minify);
-    if (draws.common_numbers && (!is_signed || sampler.estimator == texunit::Estimator::AbsWeight))
+    if (draws.common_numbers.has_value() && (!is_signed || sampler.estimator == texunit::Estimator::AbsWeight))
         throw UsageError("--signed-numbers: " + estimator + " draws one texel of " + kernel + ", not one of either sign");
 }
 

@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace rawtexel::cli::test {
+namespace rawtexel::test {
 
 std::vector<std::string> sample_words(const std::string& texture, const std::vector<std::string>& more) {
     std::vector<std::string> words{"sample", texture};
@@ -20,7 +20,7 @@ Json sample(const std::string& texture, const std::vector<std::string>& more) {
     std::vector<std::string> words = sample_words(texture, more);
     words.emplace_back("--json");
     const Outcome outcome = run(words);
-    EXPECT_EQ(outcome.code, kDone) << outcome.err;
+    EXPECT_EQ(outcome.code, cli::kDone) << outcome.err;
     EXPECT_EQ(std::ranges::count(outcome.out, '\n'), 1) << outcome.out;
     return Json::parse(outcome.out);
 }
@@ -46,4 +46,4 @@ void expect_adds_up(const Json& lookup, const std::string& what) {
     for (size_t c = 0; c < 4; ++c) EXPECT_NEAR(double(lookup["result"][c]), sum[c], bound) << what << ", channel " << c;
 }
 
-}  // namespace rawtexel::cli::test
+}  // namespace rawtexel::test

@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace rawtexel::cli::test {
+namespace rawtexel::test {
 
 using Json = nlohmann::json;
 
@@ -24,4 +24,4 @@ std::set<std::string> keys_of(const Json& json);
 /// The taps must explain the result: their weighted sum is within rounding of it, none has weight 0, and their weights add up to 1.
 void expect_adds_up(const Json& lookup, const std::string& what);
 
-}  // namespace rawtexel::cli::test
+}  // namespace rawtexel::test
