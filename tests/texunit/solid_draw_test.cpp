@@ -1,6 +1,7 @@
 // Draws in volumes, cube maps and arrays: listed, repeated on every instruction set, and told.
 #include "texunit/draw_trace.h"
 
+#include "tests/reference/texunit/kernel_reference.h"
 #include "tests/texunit/drawn_places.h"
 #include "tests/texunit/hashed_source.h"
 #include "tests/texunit/placed_lookup.h"
@@ -107,6 +108,52 @@ TEST(SolidDraw, ListsTheWeightsOfLookups) {
         }
     }
     std::printf("%d cases, largest difference %.2e\n", cases, worst);
+}
+
+/// Over uniform texels and phases. With A an axis's sum of magnitudes, the masses of either sign are (A_x*A_y*A_z +- 1)/2, each draws a
+/// texel of variance 1/12 less what the draw is sure of, and means over phases are products of the axes'.
+double variance_in_volumes(const Kernel& kernel) {
+    constexpr int kPhases = 4096;
+    double squared_sum = 0, sum_of_squares = 0;
+    for (int i = 0; i < kPhases; ++i) {
+        double magnitude = 0;
+        for (const reference::KernelTap& tap : reference::kernel_taps(kernel, 20 + (i + 0.5) / kPhases))
+            magnitude += std::abs(tap.weight), sum_of_squares += tap.weight * tap.weight / kPhases;
+        squared_sum += magnitude * magnitude / kPhases;
+    }
+    return ((std::pow(squared_sum, 3) + 1) / 2 - std::pow(sum_of_squares, 3)) / 12;
+}
+
+TEST(SolidDraw, HasTheVarianceOfPositivizationInVolumes) {
+    constexpr uint32_t kWaves = 12000;
+    Texture texture("hashed", std::make_unique<HashedSource>(Format::R16Unorm, Shape{.width = 128, .height = 128, .depth = 128}));
+    for (const Kernel& kernel : {Kernel::Bilinear, Kernel::BSpline, Kernel::mitchell(), Kernel::CatmullRom, Kernel::Lanczos3}) {
+        PlacedLookup lookup{.texture = &texture, .sampler = {.magnify = kernel, .minify = kernel, .mip = MipMode::None}};
+        const auto draw = [&](const RandomAddress& first) {
+            DrawNumbers positive, negative;
+            draw_numbers(first, positive), draw_depth_numbers(first, positive);
+            negative_draw_numbers(first, negative), negative_draw_depth_numbers(first, negative);
+            WaveFloat value{};
+            draw_shared(lookup.set(), positive, negative, [&](const SharedTap& tap) {
+                WaveColor texel;
+                read_drawn_wave(texture, lookup.sampler, tap.draw[0], texel);
+                for (int lane = 0; lane < kWaveLanes; ++lane)
+                    if ((tap.lanes >> lane & 1) != 0) value[lane] += tap.weight[lane] * texel.channel[0][lane];
+            });
+            return value;
+        };
+        double squares = 0;
+        for (uint32_t n = 0; n < kWaves; ++n) {
+            for (uint32_t axis = 0; axis < 3; ++axis)
+                for (uint32_t lane = 0; lane < kWaveLanes; ++lane)
+                    lookup.solid.position[axis][int(lane)] = random_float({.x = lane, .y = 100 + axis, .sample = n});
+            const WaveFloat one = draw({.sample = n}), other = draw({.y = 4, .sample = n});
+            for (int lane = 0; lane < kWaveLanes; ++lane) squares += std::pow(double(one[lane] - other[lane]), 2) / 2;
+        }
+        const double found = squares / (double(kWaves) * kWaveLanes), expected = variance_in_volumes(kernel);
+        std::printf("%s: variance %.4f, expected %.4f\n", to_string(kernel).c_str(), found, expected);
+        EXPECT_NEAR(found, expected, 0.01 * expected) << to_string(kernel);
+    }
 }
 
 /// Also where a direction meets the very edge of a face, which one texel never leaves.
