@@ -96,14 +96,15 @@ Picks<double> expected_picks(const GroupedTaps& taps, const SamplerState& sample
 Picks<uint32_t> drawn_picks(const PlacedLookup& lookup, const GroupedTaps& taps, Noise noise, uint32_t seed) {
     const LookupSet set = lookup.set();
     const bool absolute = lookup.sampler.estimator == Estimator::AbsWeight;
+    const bool one_sign = weighs_as_probability(lookup.sampler.minify);
     Picks<uint32_t> picks(taps.cells());
-    DrawNumbers positive, negative;
+    DrawNumbers positive{}, negative{};
     for (uint32_t sample = 0; sample < kSamples; ++sample) {
         for (uint32_t y = 0; y < kPixels; y += kWaveHeight) {
             for (uint32_t x = 0; x < kPixels; x += kWaveWidth) {
                 const RandomAddress first{.x = x, .y = y, .sample = sample, .seed = seed};
                 draw_numbers(first, positive, noise);
-                negative_draw_numbers(first, negative, noise);
+                if (!one_sign) negative_draw_numbers(first, negative, noise);
                 if (lookup.is_solid()) draw_depth_numbers(first, positive, noise), negative_draw_depth_numbers(first, negative, noise);
                 int side = 0;
                 draw_shared(set, positive, negative, [&](const SharedTap& tap) {
@@ -209,8 +210,11 @@ struct Levels {
 constexpr Levels kLevels[] = {
     {"none", MipMode::None, 1}, {"nearest", MipMode::Nearest, 1}, {"linear", MipMode::Linear, 1}, {"six probes", MipMode::Linear, 6}};
 
-/// All noises under stress; else the noises take turns.
-bool takes(int turn, Noise noise) { return stress_scale() > 1 || kNoises[size_t(turn) % std::size(kNoises)] == noise; }
+/// All cases under stress; else every other combination, and the noises take turns.
+bool takes(int turn, Noise noise) {
+    if (stress_scale() > 1) return true;
+    return (turn + turn / 4 + turn / 20) % 2 == 0 && kNoises[size_t(turn) % std::size(kNoises)] == noise;
+}
 
 TEST(DrawMatrix, PicksTexelsByTheirWeights) {
     Texture texture("hashed", make_hashed_pyramid(Format::RGBA8Unorm, 48, 20));
@@ -239,7 +243,7 @@ TEST(DrawMatrix, PicksTexelsByTheirWeights) {
             }
         }
     }
-    EXPECT_GE(matrix.cases(), 400);
+    EXPECT_GE(matrix.cases(), 240);
 }
 
 /// Layers of arrays, volumes, and cube maps beside edges and corners, with white noise.
@@ -297,7 +301,7 @@ TEST(DrawMatrix, PicksTexelsOfEllipsesByTheirWeights) {
             lookup.sampler.wrap_s = wrap;
             lookup.at = everywhere({0.98f, 0.31f, 0.05f, 0.02f, -0.01f, 0.03f});
             for (const Noise noise : kNoises)
-                if (stress_scale() > 1 || (takes(turn, noise) && turn % 4 == 0)) matrix.run(lookup, noise, std::string(to_string(wrap)));
+                if (stress_scale() > 1 || (takes(turn, noise) && turn % 5 < 2)) matrix.run(lookup, noise, std::string(to_string(wrap)));
             ++turn;
         }
     }
