@@ -1,4 +1,5 @@
 // Lookups per second of the texture unit, one thread: coherent coordinates along a rotated scanline, warm texture.
+#include "texunit/draw.h"
 #include "texunit/memory_source.h"
 #include "texunit/sample.h"
 #include "texunit/texture.h"
@@ -129,5 +130,32 @@ void cube_lookup(benchmark::State& state, SamplerState sampler) {
 }
 BENCHMARK_CAPTURE(cube_lookup, bilinear_rgba8, kBilinear);
 BENCHMARK_CAPTURE(cube_lookup, bspline_rgba8, through(Kernel::BSpline));
+
+/// One texel drawn, its numbers included; beside lookup/nearest_rgba8 and its enlarged form the price of a stochastic filter.
+void drawn_lookup(benchmark::State& state, int extent, float footprint, SamplerState sampler, Estimator estimator) {
+    sampler.estimator = estimator;
+    const std::unique_ptr<Texture> texture = noise_texture(Format::RGBA8Unorm, extent);
+    const std::vector<WaveCoordinates> waves = coherent_walk(extent, footprint);
+    WaveColor color;
+    DrawNumbers numbers{};
+    for (const WaveCoordinates& at : waves) sample_wave(*texture, sampler, at, kWaveFull, color);
+    RandomAddress address;
+    for (auto _ : state) {
+        ++address.sample;
+        for (size_t w = 0; w < waves.size(); ++w) {
+            address.x = uint32_t(w % 16) * kWaveWidth;
+            address.y = uint32_t(w / 16) * kWaveHeight;
+            draw_numbers(address, numbers);
+            sample_drawn_wave(*texture, sampler, waves[w], kWaveFull, numbers, color);
+            benchmark::DoNotOptimize(color);
+        }
+    }
+    state.SetItemsProcessed(state.iterations() * kWaves * kWaveLanes);
+}
+BENCHMARK_CAPTURE(drawn_lookup, bilinear_reservoir, 4096, 1.0f, kBilinear, Estimator::Reservoir);
+BENCHMARK_CAPTURE(drawn_lookup, bspline_reservoir, 4096, 1.0f, through(Kernel::BSpline), Estimator::Reservoir);
+BENCHMARK_CAPTURE(drawn_lookup, bspline_jitter, 4096, 1.0f, through(Kernel::BSpline), Estimator::Jitter);
+BENCHMARK_CAPTURE(drawn_lookup, bspline_reservoir_enlarged_30x, 64, 1.0f / 30, through(Kernel::BSpline), Estimator::Reservoir);
+BENCHMARK_CAPTURE(lookup, nearest_rgba8_enlarged_30x, Format::RGBA8Unorm, 64, 1.0f / 30, kNearest);
 
 }  // namespace
