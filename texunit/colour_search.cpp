@@ -10,12 +10,16 @@ namespace {
 /// Boxes looked at in one family before it counts as searched. Wrong colours need a handful; right ones are found by descent.
 constexpr int kMostBoxes = 4096;
 
-Colour colour_in(const ColourPatch& patch, double x, double y) {
+Colour colour_in(const ColourPatch& patch, const double* place) {
+    const auto bilinear = [&](const Colour* corner, size_t c) {
+        const double upper = corner[0][c] + place[0] * (corner[1][c] - corner[0][c]);
+        const double lower = corner[2][c] + place[0] * (corner[3][c] - corner[2][c]);
+        return upper + place[1] * (lower - upper);
+    };
     Colour colour;
     for (size_t c = 0; c < 4; ++c) {
-        const double upper = patch.corner[0][c] + x * (patch.corner[1][c] - patch.corner[0][c]);
-        const double lower = patch.corner[2][c] + x * (patch.corner[3][c] - patch.corner[2][c]);
-        colour[c] = upper + y * (lower - upper);
+        colour[c] = bilinear(patch.corner.data(), c);
+        if (patch.sides == 3) colour[c] += place[2] * (bilinear(patch.corner.data() + 4, c) - colour[c]);
     }
     return colour;
 }
@@ -47,24 +51,29 @@ ColourSearch::ColourSearch(const Colour& wanted, double threshold)
 void ColourSearch::visit(const ColourPatch& patch) {
     finer_ = &patch;
     coarser_ = nullptr;
-    sides_ = 2;
+    sides_ = patch.sides;
     boxes_left_ = kMostBoxes;
-    search({Range{0, 1}, {0, 1}, {0, 0}, {0, 0}, {0, 0}}, true);
+    Box box{};
+    std::fill_n(box.begin(), sides_, Range{0, 1});
+    search(box, true);
 }
 
 void ColourSearch::visit(const ColourPatch& finer, const ColourPatch& coarser, Range share) {
     finer_ = &finer;
     coarser_ = &coarser;
-    sides_ = kMostSides;
+    sides_ = 2 * finer.sides + 1;
     boxes_left_ = kMostBoxes;
-    search({Range{0, 1}, {0, 1}, {0, 1}, {0, 1}, share}, true);
+    Box box{};
+    std::fill_n(box.begin(), sides_ - 1, Range{0, 1});
+    box[sides_ - 1] = share;
+    search(box, true);
 }
 
 Colour ColourSearch::colour_at(const Place& place) const {
-    Colour colour = colour_in(*finer_, place[0], place[1]);
+    Colour colour = colour_in(*finer_, place.data());
     if (coarser_ == nullptr) return colour;
-    const Colour second = colour_in(*coarser_, place[2], place[3]);
-    for (size_t c = 0; c < 4; ++c) colour[c] += place[4] * (second[c] - colour[c]);
+    const Colour second = colour_in(*coarser_, place.data() + finer_->sides);
+    for (size_t c = 0; c < 4; ++c) colour[c] += place[sides_ - 1] * (second[c] - colour[c]);
     return colour;
 }
 

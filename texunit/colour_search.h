@@ -13,9 +13,12 @@ struct Range {
     double low, high;
 };
 
-/// Colours that one level may give for coordinates within a stretch of each axis: bilinear between four.
+/// Colours that one level may give for coordinates within a stretch of each axis: bilinear between four, of volumes trilinear between
+/// eight.
 struct ColourPatch {
-    std::array<Colour, 4> corner;  ///< [2*y + x]
+    size_t sides = 2;                ///< 2 or 3
+    std::array<Colour, 8> corner{};  ///< [4*z + 2*y + x]
+    size_t corners() const { return size_t{1} << sides; }
 };
 
 /// Looks for the colour closest to one that is wanted, until one is close enough.
@@ -26,7 +29,7 @@ class ColourSearch {
 
     /// All colours of one level's patch.
     void visit(const ColourPatch& patch);
-    /// Those of two levels' patches, mixed with a share of `coarser` within `share`; places in the two are independent.
+    /// Those of two levels' patches of as many sides, mixed with a share of `coarser` within `share`; places in the two are independent.
     void visit(const ColourPatch& finer, const ColourPatch& coarser, Range share);
 
     /// Of the closest colour found: its largest difference of a channel in thresholds. At most 1: a legal one was found.
@@ -37,8 +40,8 @@ class ColourSearch {
     const Colour& most() const { return most_; }
 
   private:
-    /// Coordinates of a colour in its family: x, y of the finer patch, x, y of the coarser, share.
-    static constexpr size_t kMostSides = 5;
+    /// Coordinates of a colour in its family: those of the finer patch, those of the coarser, share.
+    static constexpr size_t kMostSides = 7;
     using Place = std::array<double, kMostSides>;
     using Box = std::array<Range, kMostSides>;
 
