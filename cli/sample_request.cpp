@@ -81,13 +81,6 @@ void check_exclusions(const SampleRequest& request) {
         throw UsageError("--lod and --ewa exclude each other: the ellipse is that of the derivatives");
 }
 
-/// Of a lookup without derivatives, whose footprint is a point.
-void check_needs_no_derivatives(const SampleRequest& request) {
-    const char* const without = " without --ddx and --ddy: no derivatives, ";
-    if (request.lookup.footprint.probes) throw UsageError("--aniso" + std::string(without) + "no axis for probes");
-    if (request.lookup.names_lod_rule) throw UsageError("--lod-rule" + std::string(without) + "nothing to rule");
-}
-
 }  // namespace
 
 std::array<Wrap, 3> parse_wraps(std::string_view text) {
@@ -116,11 +109,7 @@ std::vector<LookupPlace> settle_places(const SampleRequest& request, std::string
     const auto has_derivatives = [](const LookupPlace& each) { return each.derivatives.has_value(); };
     if (request.lod && std::ranges::any_of(places, has_derivatives))
         throw scenes::InputError(file + ": some lines hold derivatives, which --lod takes the place of");
-    if (request.ddx.empty()) {
-        // Lines of a file may have derivatives, now or later; a place on the command line has none.
-        if (file.empty()) check_needs_no_derivatives(request);
-        return places;
-    }
+    if (request.ddx.empty()) return places;
     const Derivatives derivatives{parse_components("--ddx", request.ddx, kind), parse_components("--ddy", request.ddy, kind)};
     for (LookupPlace& each : places)
         if (!each.derivatives) each.derivatives = derivatives;

@@ -200,7 +200,9 @@ bool takes_noise(const DrawStates& states, const FilteringOptions& filtering) {
     if (filtering.shadow_taps == ShadowTaps::One || (filtering.effective_blend() == Blend::Draw && !is_dither(filtering.baseline)))
         return true;
     const auto draws = [](const MapState& map) { return map.texture != nullptr && map.sampler.estimator != texunit::Estimator::All; };
-    return std::ranges::any_of(states.materials, [&](const MaterialState& state) { return std::ranges::any_of(state.maps, draws); });
+    return std::ranges::any_of(states.materials, [&](const MaterialState& state) {
+        return state.plans.dither == texunit::Dither::None && std::ranges::any_of(state.maps, draws);
+    });
 }
 
 /// Columns are cross products of the matrix's columns: M's cofactors, which take cross(a, b) to cross(Ma, Mb).

@@ -49,16 +49,24 @@ ColourSearch::ColourSearch(const Colour& wanted, double threshold)
 }
 
 void ColourSearch::visit(const ColourPatch& patch) {
+    if (!can_improve(patch.least, patch.most)) return;
     finer_ = &patch;
     coarser_ = nullptr;
     sides_ = patch.sides;
     boxes_left_ = kMostBoxes;
     Box box{};
     std::fill_n(box.begin(), sides_, Range{0, 1});
-    search(box, true);
+    search(box);
 }
 
-void ColourSearch::visit(const ColourPatch& finer, const ColourPatch& coarser, Range share) {
+void ColourSearch::visit(const ColourPatch& finer, const ColourPatch& coarser, Range share, Effort effort) {
+    Colour low, high;
+    for (size_t c = 0; c < 4; ++c) {
+        const auto mixed = [&](const Colour& a, const Colour& b, double s) { return a[c] + s * (b[c] - a[c]); };
+        low[c] = std::min(mixed(finer.least, coarser.least, share.low), mixed(finer.least, coarser.least, share.high));
+        high[c] = std::max(mixed(finer.most, coarser.most, share.low), mixed(finer.most, coarser.most, share.high));
+    }
+    if (!can_improve(low, high)) return;
     finer_ = &finer;
     coarser_ = &coarser;
     sides_ = 2 * finer.sides + 1;
@@ -66,7 +74,27 @@ void ColourSearch::visit(const ColourPatch& finer, const ColourPatch& coarser, R
     Box box{};
     std::fill_n(box.begin(), sides_ - 1, Range{0, 1});
     box[sides_ - 1] = share;
-    search(box, true);
+    if (effort == Effort::Whole) return search(box);
+    Place middle{};
+    for (size_t side = 0; side < sides_; ++side) middle[side] = (box[side].low + box[side].high) / 2;
+    descend(box, middle);
+}
+
+void ColourPatch::find_bounds() {
+    least = most = corner[0];
+    for (size_t n = 1; n < corners(); ++n) {
+        for (size_t c = 0; c < 4; ++c) least[c] = std::min(least[c], corner[n][c]), most[c] = std::max(most[c], corner[n][c]);
+    }
+}
+
+/// Takes note of a family's bounds; false where nothing within them is closer than what has been found.
+bool ColourSearch::can_improve(const Colour& least, const Colour& most) {
+    double outside = 0;
+    for (size_t c = 0; c < 4; ++c) {
+        least_[c] = std::min(least_[c], least[c]), most_[c] = std::max(most_[c], most[c]);
+        outside = std::max({outside, least[c] - wanted_[c], wanted_[c] - most[c]});
+    }
+    return excess_ > 1 && outside < excess_ * threshold_;
 }
 
 Colour ColourSearch::colour_at(const Place& place) const {
@@ -90,7 +118,7 @@ double ColourSearch::measure(const Colour& colour) {
 }
 
 /// Branch and bound: a multilinear function over a box lies between its values at the corners, so that most boxes are ruled out whole.
-void ColourSearch::search(const Box& box, bool whole) {
+void ColourSearch::search(const Box& box) {
     std::array<Colour, size_t{1} << kMostSides> colours;
     Colour least, most;
     const size_t corners = size_t{1} << sides_;
@@ -103,10 +131,6 @@ void ColourSearch::search(const Box& box, bool whole) {
             least[c] = n == 0 ? colours[n][c] : std::min(least[c], colours[n][c]);
             most[c] = n == 0 ? colours[n][c] : std::max(most[c], colours[n][c]);
         }
-    }
-    for (size_t c = 0; whole && c < 4; ++c) {
-        least_[c] = std::min(least_[c], least[c]);
-        most_[c] = std::max(most_[c], most[c]);
     }
     if (excess_ <= 1) return;
 
@@ -136,8 +160,8 @@ void ColourSearch::search(const Box& box, bool whole) {
     }
     Box lower = box, upper = box;
     lower[widest].high = upper[widest].low = middle[widest];
-    search(lower, false);
-    if (excess_ > 1) search(upper, false);
+    search(lower);
+    if (excess_ > 1) search(upper);
 }
 
 /// Change of the colour along each side.

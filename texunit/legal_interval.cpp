@@ -60,9 +60,13 @@ void search_one(const Reading& reading, const Kernel& kernel, Range lod, ColourS
             for (const ColourPatch& patch : reading.patches.at(reading.place, kernel, level)) search.visit(patch);
         },
         [&](int level, Range share) {
+            const auto finer = reading.patches.at(reading.place, kernel, level);
             const auto coarser = reading.patches.at(reading.place, kernel, level + 1);
-            for (const ColourPatch& patch : reading.patches.at(reading.place, kernel, level)) {
-                for (const ColourPatch& second : coarser) search.visit(patch, second, share);
+            for (const auto effort : {ColourSearch::Effort::Descent, ColourSearch::Effort::Whole}) {
+                for (const ColourPatch& patch : finer) {
+                    for (const ColourPatch& second : coarser) search.visit(patch, second, share, effort);
+                }
+                if (search.excess() <= 1) return;
             }
         });
 }

@@ -63,9 +63,11 @@ struct Stretch {
     std::vector<WeightedTexel> from, to;
 };
 
-/// The weights of smooth kernels pass for linear over a stretch this long, in texels: their curvature is below 16 a texel^2, so that they
-/// are off by 2e-6. Wide ranges, of low precision, are cut into this many stretches at most.
-constexpr double kLongestStretch = 1.0 / 1024;
+/// The weights of smooth kernels pass for linear over a stretch this long, in texels: their curvature is below 16 a texel^2, of B-splines
+/// at most 2, so that they are off by 2e-6. Wide ranges, of low precision, are cut into this many stretches at most.
+constexpr double longest_stretch(const Kernel& kernel) {
+    return kernel.kind == KernelKind::Quadratic || kernel.kind == KernelKind::BSpline ? 1.0 / 354 : 1.0 / 1024;
+}
 constexpr double kMostStretches = 24;
 
 /// Where the weights of a kernel, as functions of the coordinate, bend or jump: at texel edges and centres, and where a Gaussian's interval
@@ -88,7 +90,7 @@ std::vector<double> breaks_within(const Kernel& kernel, Range x) {
 
 std::vector<Stretch> stretches(const Kernel& kernel, Range x) {
     const std::vector<double> breaks = breaks_within(kernel, x);
-    const double longest = std::max(kLongestStretch, (x.high - x.low) / kMostStretches);
+    const double longest = std::max(longest_stretch(kernel), (x.high - x.low) / kMostStretches);
     std::vector<Stretch> all;
     for (size_t n = 1; n < breaks.size(); ++n) {
         const double low = breaks[n - 1], high = breaks[n];
@@ -214,6 +216,7 @@ std::vector<ColourPatch> LegalPatches::at(const LegalPlace& place, const Kernel&
                 ColourPatch patch{.sides = is_volume ? size_t{3} : size_t{2}, .corner = {}};
                 for (size_t n = 0; n < patch.corners(); ++n)
                     patch.corner[n] = grid.sum((n & 1) != 0 ? x.to : x.from, (n & 2) != 0 ? y.to : y.from, (n & 4) != 0 ? z.to : z.from);
+                patch.find_bounds();
                 patches.push_back(patch);
             }
         }

@@ -322,8 +322,6 @@ TEST(Sample, WrongUsageIsExitCode2) {
         {flat, {"--uv", "0,0", "--wrap", "clamp,clamp,clamp"}, "is flat (allowed: S[,T])"},
         {flat, {"--uv", "0,0", "--lod", "1", "--lod-rule", "exact"}, "--lod and --lod-rule exclude each other"},
         {flat, {"--uv", "0,0", "--lod", "1", "--lod-rule", "d3d"}, "--lod and --lod-rule exclude each other"},
-        {flat, {"--uv", "0,0", "--lod-rule", "d3d"}, "--lod-rule without --ddx and --ddy"},
-        {flat, {"--uv", "0,0", "--aniso", "8"}, "--aniso without --ddx and --ddy"},
         {flat, {"--uv", "0,0", "--ewa", "--max-lod", "2"}, "--max-lod: --ewa reads level 0"},
         {flat, {"--uv", "0,0", "--ewa", "--filter", "bspline"}, "--filter: --ewa has kernel"},
         {cube, {"--direction", "0,0,0"}, "--direction: 0,0,0 is no direction"},

@@ -1,5 +1,6 @@
 // The verifier on anisotropic lookups: it accepts our probes in gpu precision, and probes put together one by one; it refuses those of
 // other rules and says what they are.
+#include "texunit/colour_hull.h"
 #include "texunit/footprint.h"
 #include "texunit/legal_interval.h"
 #include "texunit/probe_table.h"
@@ -176,6 +177,11 @@ TEST_F(ProbeMistakes, OfNumberAxisAndLevelAreRefusedAndNamed) {
     expect_refused([](Rule& rule, const reference::Lookup&) { rule.lod += std::log2(float(rule.probes)); }, 0.9, "", 4);
 }
 
+TEST_F(ProbeMistakes, OfATenthOfALevelAreRefused) {
+    const Refusals found = refusals(anisotropic_, 2, [](Rule& rule, const reference::Lookup&) { rule.lod += 0.1f; });
+    EXPECT_GE(found.refused, 45) << "of " << found.asked;
+}
+
 TEST_F(ProbeMistakes, OfTheAxisAreRefusedAndNamed) {
     SamplerState sampler = anisotropic_;
     const Refusals found = refusals(sampler, 4, [](Rule& rule, const reference::Lookup& at) {
@@ -250,6 +256,34 @@ TEST_F(ProbeMistakes, OfANormalLineAreRefused) {
     }
     EXPECT_EQ(legal, kWaveLanes);
     EXPECT_GE(refused, 2 * kWaveLanes - 2);
+}
+
+TEST(ColourHull, TellsColoursApartThatEveryChannelByItselfAllows) {
+    // From black to white and from half grey to half grey: the sum of halves is grey between 1/4 and 3/4.
+    ColourPatch greys, grey;
+    for (size_t n = 0; n < 4; ++n) greys.corner[n].fill(n % 2 == 0 ? 0 : 1), grey.corner[n].fill(0.5);
+    ColourHull sum;
+    sum.add(0.5, {&greys, 1});
+    sum.add(0.5, {&grey, 1});
+    const auto excess = [&](const JudgedColour& colour) { return ColourHull::excess(sum, sum, {0, 1}, colour, 0.01); };
+    EXPECT_EQ(excess({0.3, 0.3, 0.3, 0.3}), 0);
+    EXPECT_EQ(excess({0.75, 0.75, 0.75, 0.75}), 0);
+    EXPECT_NEAR(excess({0.8, 0.8, 0.8, 0.8}), 5, 1e-9);
+    // Red and blue as far from grey as may be: each is off by half their distance.
+    EXPECT_NEAR(excess({0.3, 0.5, 0.5, 0.7}), 20, 1e-9);
+    EXPECT_EQ(sum.least(), (JudgedColour{0.25, 0.25, 0.25, 0.25}));
+    EXPECT_EQ(sum.most(), (JudgedColour{0.75, 0.75, 0.75, 0.75}));
+
+    // Mixed with black, one share must explain all channels.
+    ColourPatch black;
+    ColourHull none, red;
+    ColourPatch reds;
+    for (Colour& corner : reds.corner) corner = {1, 0, 0, 1};
+    none.add(1, {&black, 1});
+    red.add(1, {&reds, 1});
+    EXPECT_LE(ColourHull::excess(none, red, {0.2, 0.6}, {0.43, 0, 0, 0.43}, 0.01), 1e-3);
+    EXPECT_NEAR(ColourHull::excess(none, red, {0.2, 0.6}, {0.3, 0, 0, 0.5}, 0.01), 10, 1e-3);
+    EXPECT_NEAR(ColourHull::excess(none, red, {0.2, 0.6}, {0.7, 0, 0, 0.7}, 0.01), 10, 1e-3);
 }
 
 }  // namespace

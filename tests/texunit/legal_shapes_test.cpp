@@ -102,8 +102,8 @@ TEST(LegalShapes, HoldOurArrays) {
 TEST(LegalShapes, HoldOurVolumes) {
     expect_legal({.width = 33, .height = 16, .depth = 5}, few_taps, 4);
     expect_legal({.width = 2, .height = 7, .depth = 40}, few_taps, 4);
-    expect_legal(
-        {.width = 8, .height = 8, .depth = 8}, [](const Kernel& kernel) { return kernel == Kernel::BSpline; }, 2);
+    const auto wide = [](const Kernel& kernel) { return kernel == Kernel::BSpline || kernel == Kernel::CatmullRom; };
+    expect_legal({.width = 8, .height = 8, .depth = 8}, wide, 2);
 }
 
 TEST(LegalShapes, HoldOurCubeMapsAcrossEdgesAndCorners) {
@@ -229,6 +229,23 @@ TEST_F(ShapeMistakes, OfCubeMapsAreRefusedAndNamed) {
                                 };
                             }),
                    0.95, "");
+}
+
+TEST_F(ShapeMistakes, OfTheFaceAreLegalWhereTheDirectionIsTooImpreciseToTell) {
+    const auto texture = hashed_texture({.width = 8, .height = 8, .layers = 6, .cube = true});
+    const JudgedTexture reference = judged(*texture);
+    const SamplerState nearest{.magnify = Kernel::Nearest, .minify = Kernel::Nearest, .mip = MipMode::None};
+    // Where +X and +Z meet, a little on +X's side; row 2 of both.
+    const JudgedLookup at{.at = {1, 1 - 2 * 2.5 / 8, 1 - 0x1p-20}};
+    const JudgedColour on_x = reference.texel(0, 0, 0, 2), on_z = reference.texel(0, 4, 7, 2);
+    for (const auto& [bits, either] : {std::pair{19, true}, {22, false}}) {
+        LegalPrecision precision = kOurs;
+        precision.coordinate_bits = bits;
+        EXPECT_TRUE(judge_lookup(reference, nearest, at, on_x, precision).legal);
+        // The subtexel precision reaches across the edge of a face, but not the level's texels beyond it.
+        precision.subtexel_bits = 30;
+        EXPECT_EQ(judge_lookup(reference, nearest, at, on_z, precision).legal, either) << bits;
+    }
 }
 
 TEST_F(ShapeMistakes, AtTheEdgesOfFacesAreRefusedAndNamed) {
