@@ -141,23 +141,101 @@ TEST_F(StackTest, BlendedLayersAskUpToTheOneThatIsDrawn) {
     EXPECT_NEAR(found[2], 24.0, 64 * 5 * std::sqrt(0.375 * 0.625 / (64.0 * 64 * 64)));
 }
 
+/// Where base colours are looked up: u and v by pixel.
+class BaseColorPlaces final : public LookupListener {
+  public:
+    void begin_tile(int, int) override {}
+    void begin_wave(const ListenedWave& wave) override { wave_ = wave; }
+    void fragments(const ListenedFragments&) override {}
+    void lookup(const ListenedLookup& lookup) override {
+        for (int lane = 0; lane < texunit::kWaveLanes; ++lane) {
+            if (lookup.slot != kBaseColor || (lookup.lanes >> lane & 1) == 0) continue;
+            places[{wave_.x + lane % texunit::kWaveWidth, wave_.y + lane / texunit::kWaveWidth}] = {lookup.at->u[lane], lookup.at->v[lane]};
+        }
+    }
+    void drawn(const ListenedDraw&) override {}
+    void end_wave() override {}
+    void end_sample() override {}
+    void end_tile() override {}
+    std::map<std::pair<int, int>, glm::vec2> places;
+
+  private:
+    ListenedWave wave_;
+};
+
 TEST_F(StackTest, QuadsAskForTheirHelpersToo) {
-    // One triangle over half of the frame: its diagonal cuts quads in two.
-    Mesh half = make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
-    half.indices.resize(3);
     scene_.textures.push_back(make_noise_texture(64, 64, 1));
     Material material = unlit(glm::vec4(1.0f));
     material.maps[kBaseColor].texture = 0;
-    add_object(scene_, half, material);
+    const Mesh whole = make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
+    const auto places_of = [&](const Scene& scene) {
+        BaseColorPlaces listener;
+        RenderOptions options = options_;
+        options.fetches = {};
+        options.fetches.model = options_.fetches.model;
+        options.listener = &listener;
+        render(scene, Lighting{}, options, *executor_);
+        return listener.places;
+    };
+    Scene full = scene_;
+    add_object(full, whole, material);
     options_.fetches.model = FetchModel::Forward;
-    const RenderResult forward = render(scene_, Lighting{}, options_, *executor_);
-    options_.fetches.model = FetchModel::Quad;
-    const RenderResult quad = render(scene_, Lighting{}, options_, *executor_);
-    EXPECT_EQ(forward.fetches->counts[0].lookups, forward.samples_shaded);
-    const uint64_t covered = forward.samples_shaded;
-    // 32 quads lie on the diagonal, each with one or three lanes of four; the top-left rule gives the centres on it to one side.
-    const uint64_t expected = covered % 64 == 32 ? covered + 32 * (covered < 2048 ? 3 : 1) : 0;
-    EXPECT_EQ(quad.fetches->counts[0].lookups, expected) << covered;
+    const auto everywhere = places_of(full);
+    EXPECT_EQ(everywhere.size(), size_t{64 * 64});
+    // One triangle over half of the frame, then the other: their diagonal cuts quads in two.
+    std::set<bool> cuts;
+    for (const size_t first : {size_t{0}, size_t{3}}) {
+        Mesh half = whole;
+        half.indices.assign(whole.indices.begin() + ptrdiff_t(first), whole.indices.begin() + ptrdiff_t(first) + 3);
+        Scene scene = scene_;
+        add_object(scene, half, material);
+        options_.fetches.model = FetchModel::Forward;
+        const RenderResult forward = render(scene, Lighting{}, options_, *executor_);
+        options_.fetches.model = FetchModel::Quad;
+        const RenderResult quad = render(scene, Lighting{}, options_, *executor_);
+        EXPECT_EQ(forward.fetches->counts[0].lookups, forward.samples_shaded);
+        const uint64_t covered = forward.samples_shaded;
+        // 32 quads lie on the diagonal, each with one or three lanes of four; the top-left rule gives the centres on it to one side.
+        const uint64_t expected = covered % 64 == 32 ? covered + 32 * (covered < 2048 ? 3 : 1) : 0;
+        EXPECT_EQ(quad.fetches->counts[0].lookups, expected) << covered;
+        cuts.insert(covered < 2048);
+        // Beyond the edge coordinates go on as the plane does.
+        const auto places = places_of(scene);
+        EXPECT_EQ(places.size(), expected);
+        for (const auto& [pixel, uv] : places) {
+            const glm::vec2 plane = everywhere.at(pixel);
+            EXPECT_NEAR(uv.x, plane.x, 1e-5) << pixel.first << ',' << pixel.second;
+            EXPECT_NEAR(uv.y, plane.y, 1e-5) << pixel.first << ',' << pixel.second;
+        }
+    }
+    EXPECT_EQ(cuts.size(), 2u) << "one lane of four, and three";
+}
+
+TEST_F(StackTest, WhatIsDiscardedAsksForItsBaseColourAlone) {
+    for (const float alpha : {0.0f, 1.0f}) {
+        Scene scene;
+        scene.textures.push_back(make_texture(8, 8, [alpha](int, int) { return glm::vec4(0.5f, 0.5f, 0.5f, alpha); }));
+        scene.textures.push_back(make_noise_texture(8, 8, 2));
+        Material material;
+        material.alpha_mode = AlphaMode::Mask;
+        material.maps[kBaseColor].texture = 0;
+        material.maps[kMetallicRoughness].texture = 1;
+        add_object(scene, make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), material);
+        for (const FetchModel model : {FetchModel::Visible, FetchModel::Forward}) {
+            options_.fetches.model = model;
+            const RenderResult result = render(scene, Lighting{}, options_, *executor_);
+            EXPECT_EQ(result.fetches->counts[0].lookups, 64u * 64) << to_string(model);
+            EXPECT_EQ(result.fetches->counts[1].lookups, alpha > 0 ? 64u * 64 : 0u) << to_string(model);
+        }
+    }
+}
+
+TEST_F(StackTest, WhatIsDiscardedBehindTheSurfaceIsNotVisible) {
+    // The first in the scene is looked at first, and hidden by what comes after it.
+    add(0.5f, AlphaMode::Mask, 0.0f);
+    add(0.9f, AlphaMode::Mask, 1.0f);
+    EXPECT_EQ(lookups(FetchModel::Visible), (PerQuad{0, 1}));
+    EXPECT_EQ(lookups(FetchModel::Forward), (PerQuad{1, 1}));
 }
 
 TEST_F(StackTest, CountsOfAFullFrameQuadAreAnalytic) {
@@ -459,79 +537,104 @@ class ListedCache {
     std::vector<std::vector<uint64_t>> sets_;
 };
 
-/// What somebody finds who replays the stream with nothing but the page that describes it.
+/// What somebody finds who replays the stream with nothing but the page that describes it. In the crop the frame's second tile is the
+/// first.
 TEST_F(FetchesTest, TraceReplayedGivesTheCounters) {
-    RenderOptions options = busy_options();
-    options.fetches.pixel_layers = true;
-    texunit::CacheSpec spec;
-    spec.l1 = {2048, 2}, spec.l2 = {8192, 4};
-    spec.line_bytes = 32;
-    spec.cores = 3;
-    options.fetches.cache = spec;
+    for (const Crop& crop : {Crop{}, Crop{70, 9, 90, 80}}) {
+        RenderOptions options = busy_options();
+        options.crop = crop;
+        options.fetches.pixel_layers = true;
+        texunit::CacheSpec spec;
+        spec.l1 = {2048, 2}, spec.l2 = {8192, 4};
+        spec.line_bytes = 32;
+        spec.cores = 3;
+        options.fetches.cache = spec;
+        std::vector<std::byte> file;
+        texunit::FetchTraceWriter writer([&](std::span<const std::byte> bytes) { file.insert(file.end(), bytes.begin(), bytes.end()); });
+        options.fetches.trace = &writer;
+        const RenderResult result = render_with(options, ExecutorKind::Threads, 3);
+        writer.end();
+        const FrameFetches& fetches = *result.fetches;
+        const ReadTrace trace = read_trace(file);
+
+        struct Level {
+            std::set<std::tuple<int, int, int>> texels, blocks;
+            std::set<uint64_t> lines, stored;
+            texunit::CacheCounts cache;
+        };
+        std::map<std::pair<uint32_t, int>, Level> levels;
+        std::set<uint64_t> lines, blocks;
+        struct Core {
+            ListedCache l1, fully;
+            std::set<uint64_t> seen;
+        };
+        std::vector<Core> cores(3, {{2048, 2, 32}, {2048, 2048 / 32, 32}, {}});
+        ListedCache l2(8192, 4, 32);
+        const Image& whole = fetches.pixel(PixelCount::TexelsRequested);
+        const auto layer = [&] { return std::vector<float>(whole.values.size()); };
+        std::vector<float> requested = layer(), lines_first = layer(), blocks_first = layer(), l1_miss = layer(), l2_miss = layer();
+        for (const texunit::TraceRecord& record : trace.records) {
+            const size_t pixel = size_t(record.pixel_y - crop.y) * size_t(whole.width) + size_t(record.pixel_x - crop.x);
+            Level& level = levels[{record.texture, record.level}];
+            level.texels.insert({record.x, record.y, record.z});
+            level.blocks.insert({record.x / 4, record.y / 4, record.z});
+            level.lines.insert(record.decoded / 64), level.stored.insert(record.stored / 64);
+            ++requested[pixel];
+            lines_first[pixel] += lines.insert(record.decoded / 64).second;
+            blocks_first[pixel] += blocks.insert(record.decoded / (16u * record.bytes_decoded) * (16u * record.bytes_decoded)).second;
+            Core& core = cores[size_t(record.pixel_y / 64 * 3 + record.pixel_x / 64) % 3];
+            const bool in_l1 = core.l1.access(record.decoded), in_fully = core.fully.access(record.decoded);
+            const bool is_new = core.seen.insert(record.decoded / 32).second;
+            texunit::CacheCounts& cache = level.cache;
+            cache.l1_hits += in_l1;
+            if (in_l1) continue;
+            ++cache.l1_misses;
+            ++(is_new ? cache.compulsory : in_fully ? cache.conflict : cache.capacity);
+            ++l1_miss[pixel];
+            const bool in_l2 = l2.access(record.stored);
+            ++(in_l2 ? cache.l2_hits : cache.l2_misses);
+            l2_miss[pixel] += !in_l2;
+        }
+        EXPECT_EQ(fetches.pixel(PixelCount::TexelsRequested).values, requested);
+        EXPECT_EQ(fetches.pixel(PixelCount::LinesFirst).values, lines_first);
+        EXPECT_EQ(fetches.pixel(PixelCount::BlocksFirst).values, blocks_first);
+        EXPECT_EQ(fetches.pixel(PixelCount::L1Miss).values, l1_miss);
+        EXPECT_EQ(fetches.pixel(PixelCount::L2Miss).values, l2_miss);
+        const auto touched = fetches.measure();
+        texunit::CacheCounts all;
+        for (size_t t = 0; t < touched.size(); ++t) {
+            for (size_t l = 0; l < touched[t].size(); ++l) {
+                const Level& level = levels[{uint32_t(t), int(l)}];
+                EXPECT_EQ(touched[t][l].texels_unique, level.texels.size()) << t << ' ' << l;
+                EXPECT_EQ(touched[t][l].blocks_touched, level.blocks.size()) << t << ' ' << l;
+                EXPECT_EQ(touched[t][l].decoded.of_64(), level.lines.size()) << t << ' ' << l;
+                EXPECT_EQ(fetches.cache[t][l], level.cache) << t << ' ' << l;
+                all += level.cache;
+            }
+        }
+        // All kinds of misses are among them.
+        EXPECT_GT(std::min({all.l1_hits, all.compulsory, all.capacity, all.conflict, all.l2_hits, all.l2_misses}), 100u);
+    }
+}
+
+/// Taps that take the border colour read nothing.
+TEST_F(StackTest, BordersAreNeitherCountedNorTraced) {
+    scene_.textures.push_back(make_noise_texture(8, 8, 1));
+    Material material = unlit(glm::vec4(1.0f));
+    TextureMap& map = material.maps[kBaseColor];
+    map.texture = 0;
+    map.sampler.wrap_s = map.sampler.wrap_t = texunit::Wrap::ClampToBorder;
+    map.sampler.mip = texunit::MipMode::None;
+    map.sampler.magnify = map.sampler.minify = texunit::Kernel::Nearest;
+    add_object(scene_, make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, glm::vec2(2.0f)), material);
     std::vector<std::byte> file;
     texunit::FetchTraceWriter writer([&](std::span<const std::byte> bytes) { file.insert(file.end(), bytes.begin(), bytes.end()); });
-    options.fetches.trace = &writer;
-    const RenderResult result = render_with(options, ExecutorKind::Threads, 3);
+    options_.fetches.trace = &writer;
+    const RenderResult result = render(scene_, Lighting{}, options_, *executor_);
     writer.end();
-    const FrameFetches& fetches = *result.fetches;
-    const ReadTrace trace = read_trace(file);
-
-    struct Level {
-        std::set<std::tuple<int, int, int>> texels, blocks;
-        std::set<uint64_t> lines, stored;
-        texunit::CacheCounts cache;
-    };
-    std::map<std::pair<uint32_t, int>, Level> levels;
-    std::set<uint64_t> lines, blocks;
-    struct Core {
-        ListedCache l1, fully;
-        std::set<uint64_t> seen;
-    };
-    std::vector<Core> cores(3, {{2048, 2, 32}, {2048, 2048 / 32, 32}, {}});
-    ListedCache l2(8192, 4, 32);
-    const auto layer = [&] { return std::vector<float>(size_t(options.width) * size_t(options.height)); };
-    std::vector<float> requested = layer(), lines_first = layer(), blocks_first = layer(), l1_miss = layer(), l2_miss = layer();
-    for (const texunit::TraceRecord& record : trace.records) {
-        const size_t pixel = size_t(record.pixel_y) * size_t(options.width) + record.pixel_x;
-        Level& level = levels[{record.texture, record.level}];
-        level.texels.insert({record.x, record.y, record.z});
-        level.blocks.insert({record.x / 4, record.y / 4, record.z});
-        level.lines.insert(record.decoded / 64), level.stored.insert(record.stored / 64);
-        ++requested[pixel];
-        lines_first[pixel] += lines.insert(record.decoded / 64).second;
-        blocks_first[pixel] += blocks.insert(record.decoded / (16u * record.bytes_decoded) * (16u * record.bytes_decoded)).second;
-        Core& core = cores[size_t(record.pixel_y / 64 * 3 + record.pixel_x / 64) % 3];
-        const bool in_l1 = core.l1.access(record.decoded), in_fully = core.fully.access(record.decoded);
-        const bool is_new = core.seen.insert(record.decoded / 32).second;
-        texunit::CacheCounts& cache = level.cache;
-        cache.l1_hits += in_l1;
-        if (in_l1) continue;
-        ++cache.l1_misses;
-        ++(is_new ? cache.compulsory : in_fully ? cache.conflict : cache.capacity);
-        ++l1_miss[pixel];
-        const bool in_l2 = l2.access(record.stored);
-        ++(in_l2 ? cache.l2_hits : cache.l2_misses);
-        l2_miss[pixel] += !in_l2;
-    }
-    EXPECT_EQ(fetches.pixel(PixelCount::TexelsRequested).values, requested);
-    EXPECT_EQ(fetches.pixel(PixelCount::LinesFirst).values, lines_first);
-    EXPECT_EQ(fetches.pixel(PixelCount::BlocksFirst).values, blocks_first);
-    EXPECT_EQ(fetches.pixel(PixelCount::L1Miss).values, l1_miss);
-    EXPECT_EQ(fetches.pixel(PixelCount::L2Miss).values, l2_miss);
-    const auto touched = fetches.measure();
-    texunit::CacheCounts all;
-    for (size_t t = 0; t < touched.size(); ++t) {
-        for (size_t l = 0; l < touched[t].size(); ++l) {
-            const Level& level = levels[{uint32_t(t), int(l)}];
-            EXPECT_EQ(touched[t][l].texels_unique, level.texels.size()) << t << ' ' << l;
-            EXPECT_EQ(touched[t][l].blocks_touched, level.blocks.size()) << t << ' ' << l;
-            EXPECT_EQ(touched[t][l].decoded.of_64(), level.lines.size()) << t << ' ' << l;
-            EXPECT_EQ(fetches.cache[t][l], level.cache) << t << ' ' << l;
-            all += level.cache;
-        }
-    }
-    // All kinds of misses are among them.
-    EXPECT_GT(std::min({all.l1_hits, all.compulsory, all.capacity, all.conflict, all.l2_hits, all.l2_misses}), 100u);
+    EXPECT_EQ(result.fetches->total().lookups, 64u * 64);
+    EXPECT_EQ(result.fetches->total().texels_requested, 32u * 32);
+    EXPECT_EQ(read_trace(file).records.size(), 32u * 32);
 }
 
 /// One material with every map, its textures in another order than its maps.
