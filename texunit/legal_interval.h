@@ -58,10 +58,10 @@ struct LegalVerdict {
 /// there. Volumes and cube maps are isotropic whatever `probes` says.
 ///
 /// Anisotropic lookups are judged by our rule, for D3D and Vulkan leave number and places of the probes to implementations: with ratio eta
-/// of the axes, ceil(eta * min(shorter axis in texels, 1)) probes of equal weight, probe i of n at (i + 1/2)/n - 1/2 of the longer axis, at
-/// the level of that axis over eta; with S2 (SamplerState::probe_variance) the normal probes of docs/anisotropy.md. Legal if some ratio,
-/// axis, number and level within the precision and coordinates of each probe by itself give the colour, or what lies between such colours:
-/// colours of many probes are judged by the octahedral hull of theirs.
+/// of the axes, ceil(eta * min(longer axis over eta in texels, 1)) probes of equal weight, probe i of n at (i + 1/2)/n - 1/2 of the longer
+/// axis, at the level of that axis over eta; with S2 (SamplerState::probe_variance) the normal probes of docs/anisotropy.md. Legal if some
+/// ratio, axis, number and level within the precision and coordinates of each probe by itself give the colour, or what lies between such
+/// colours: colours of many probes are judged by how far all reach in 80 directions.
 LegalVerdict judge_lookup(const JudgedTexture& texture, const SamplerState& sampler, const JudgedLookup& lookup,
                           const std::array<double, 4>& colour, const LegalPrecision& precision = {});
 
