@@ -38,7 +38,7 @@ std::string print_ellipse(float ellipse) { return ellipse > 0 ? print_number(ell
 std::string_view to_string(shading::Derivatives derivatives) { return derivatives == shading::Derivatives::Quad ? "quad" : "analytic"; }
 std::string_view to_string(shading::FootprintArea area) { return area == shading::FootprintArea::Sample ? "sample" : "pixel"; }
 
-void declare_lod_options(CommandLine& line, shading::FootprintOptions& footprint) {
+void declare_lod_options(CommandLine& line, shading::FootprintOptions& footprint, bool* names_rule) {
     line.option("--aniso", "N[:S2]",
                 "anisotropic probes, 1 to 64 at most; with S2 probes and level together have the covariance of a pixel filter of that "
                 "variance, " +
@@ -53,8 +53,9 @@ void declare_lod_options(CommandLine& line, shading::FootprintOptions& footprint
                              check_one_filter(footprint);
                          });
     line.option("--lod-rule", "d3d|exact", "ratio and axes from the two derivatives (the default), or by singular values",
-                [&](const std::string& text) {
+                [&footprint, names_rule](const std::string& text) {
                     footprint.lod_rule = parse_choice("--lod-rule", text, {texunit::LodRule::D3d, texunit::LodRule::Exact});
+                    if (names_rule != nullptr) *names_rule = true;
                 });
     line.option("--lod-bias", "B", "added to every level of detail, " + print(kBias) + " (default 0)",
                 [&](const std::string& text) { footprint.lod_bias = parse_number("--lod-bias", text, kBias); });
@@ -71,8 +72,8 @@ void check_hybrid_bias(const shading::FootprintOptions& footprint, const shading
         throw UsageError("--hybrid-bias: --ewa with --estimator all weighs every texel of level 0; an estimator that draws takes a bias");
 }
 
-void declare_footprint_options(CommandLine& line, shading::FootprintOptions& footprint) {
-    declare_lod_options(line, footprint);
+void declare_footprint_options(CommandLine& line, shading::FootprintOptions& footprint, bool* names_rule) {
+    declare_lod_options(line, footprint, names_rule);
     line.option("--derivatives", "analytic|quad", "per pixel (the default), or by differences within 2x2 pixels as GPUs do",
                 [&](const std::string& text) {
                     const bool quad = parse_word("--derivatives", text, {"analytic", "quad"}) == 1;

@@ -10,10 +10,10 @@
 
 namespace rawtexel::cli {
 
-/// --aniso, --ewa, --lod-rule and --lod-bias: what becomes of derivatives.
-void declare_lod_options(CommandLine& line, shading::FootprintOptions& footprint);
+/// --aniso, --ewa, --lod-rule, --lod-bias and --hybrid-bias: what becomes of derivatives. `names_rule` becomes true where a rule is given.
+void declare_lod_options(CommandLine& line, shading::FootprintOptions& footprint, bool* names_rule = nullptr);
 /// The same, with --derivatives and --footprint: where a frame's derivatives come from.
-void declare_footprint_options(CommandLine& line, shading::FootprintOptions& footprint);
+void declare_footprint_options(CommandLine& line, shading::FootprintOptions& footprint, bool* names_rule = nullptr);
 
 /// Throws UsageError where a bias has nothing to act on.
 void check_hybrid_bias(const shading::FootprintOptions& footprint, const shading::FilteringOptions& filtering);

@@ -89,6 +89,21 @@ void check_texture_jitter(const LookupOptions& lookup) {
                          " says itself how maps are looked up");
 }
 
+void check_lookup(const LookupOptions& lookup) {
+    const shading::FootprintOptions& footprint = lookup.footprint;
+    check_hybrid_bias(footprint, lookup.filtering);
+    if (footprint.probe_variance > 0 && lookup.names_lod_rule)
+        throw UsageError("--lod-rule: --aniso N:S2 always takes the axes of the ellipse");
+    if (footprint.ellipse <= 0) return;
+    const std::pair<bool, const char*> taken[] = {{lookup.filter.has_value(), "--filter"},
+                                                  {lookup.mip.has_value(), "--mip"},
+                                                  {lookup.names_lod_rule, "--lod-rule"},
+                                                  {footprint.lod_bias != 0, "--lod-bias"},
+                                                  {lookup.precision != texunit::Precision::Exact, "--precision gpu"}};
+    for (const auto& [given, option] : taken)
+        if (given) throw UsageError(std::string(option) + ": --ewa has kernel, level and axes of its own, and rounds no fractions");
+}
+
 std::vector<std::pair<std::string, std::string>> print_choices(const LookupOptions& lookup) {
     const shading::FootprintOptions& footprint = lookup.footprint;
     return {{"filter", print_filter(lookup.filter)},

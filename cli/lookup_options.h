@@ -21,6 +21,7 @@ struct LookupOptions {
     std::optional<texunit::MipMode> mip;
     shading::FootprintOptions footprint;
     shading::FilteringOptions filtering;
+    bool names_lod_rule = false;  ///< whether --lod-rule was given, whatever it says
     texunit::Precision precision = texunit::Precision::Exact;
     texunit::MipStorage mip_storage = texunit::MipStorage::Source;
     texunit::ContainerOptions files;
@@ -28,6 +29,9 @@ struct LookupOptions {
 
 /// --filter, --mip, --precision, --mip-storage, and those of texture files. Footprints have their own (cli/footprint_options.h).
 void declare_lookup_options(CommandLine& line, LookupOptions& lookup);
+
+/// Throws UsageError where one option leaves another without effect: of footprints, their bias and the ellipse.
+void check_lookup(const LookupOptions& lookup);
 
 // The readers throw UsageError.
 std::optional<texunit::Kernel> parse_filter(std::string_view text);  // scene, or a kernel as texunit::parse_kernel takes it

@@ -158,7 +158,8 @@ void preset_reference(RenderRequest& request) {
     LookupOptions& lookup = request.lookup;
     const std::pair<bool, const char*> taken[] = {
         {lookup.mip.has_value(), "--mip"},
-        {!(lookup.footprint == shading::FootprintOptions{}), "--aniso, --ewa, --lod-*, --hybrid-bias, --derivatives and --footprint"},
+        {!(lookup.footprint == shading::FootprintOptions{}) || lookup.names_lod_rule,
+         "--aniso, --ewa, --lod-*, --hybrid-bias, --derivatives and --footprint"},
         {lookup.filtering.draws() || lookup.filtering.order, "--estimator and --order"},
         {lookup.filtering.baseline != shading::Baseline::None, "--baseline"},
         {lookup.filtering.blend || lookup.filtering.shadow_taps != shading::ShadowTaps::All, "--blend and --shadow-taps"},
@@ -268,7 +269,7 @@ void declare_render_options(CommandLine& line, RenderRequest& request) {
     line.group("Texture unit");
     declare_lookup_options(line, request.lookup);
     line.group("Footprints");
-    declare_footprint_options(line, request.lookup.footprint);
+    declare_footprint_options(line, request.lookup.footprint, &request.lookup.names_lod_rule);
     line.group("Filtering before or after shading");
     declare_filtering_options(line, request.lookup.filtering);
     line.option("--policy", "FILE.json", "order, estimator, filter and mip of single materials and textures (docs/filters.md)",
@@ -285,7 +286,7 @@ void settle(RenderRequest& request) {
     check_view(request.view);
     check_baseline(request.lookup);
     check_filtering(request.lookup.filtering, request.lookup.filter);
-    check_hybrid_bias(request.lookup.footprint, request.lookup.filtering);
+    check_lookup(request.lookup);
     check_texture_jitter(request.lookup);
     if (request.light.peer_shading) preset_peer_shading(request);
     if (request.samples.reference) preset_reference(request);

@@ -51,14 +51,17 @@ void declare_sampler(CommandLine& line, SampleRequest& request) {
     declare_lookup_options(line, request.lookup);
     line.option("--wrap", "S[,T[,R]]",
                 "beyond the edges: repeat (the default), mirror, clamp, border or mirror-once; an axis without one takes that before it",
-                [&](const std::string& text) { request.wraps = parse_wraps(text); });
+                [&](const std::string& text) {
+                    request.wraps = parse_wraps(text);
+                    request.wraps_given = split(text, ',').size();
+                });
     line.option("--border", "R,G,B,A", "the linear colour of --wrap border (default 0,0,0,0)", [&](const std::string& text) {
         const std::vector<float> colour = parse_numbers("--border", text, "R,G,B,A", 4, 4);
         std::ranges::copy(colour, request.border.emplace().begin());
     });
     declare_color_space(line, request.color_space);
     line.group("Footprint");
-    declare_lod_options(line, request.lookup.footprint);
+    declare_lod_options(line, request.lookup.footprint, &request.lookup.names_lod_rule);
     line.option("--min-lod", "L", "no finer level of detail than this, " + print(kLod) + " (default 0)",
                 [&](const std::string& text) { request.min_lod = parse_number("--min-lod", text, kLod); });
     line.option("--max-lod", "L", "no coarser one, --min-lod wins (default 1000)",
@@ -130,7 +133,9 @@ void check_draws(const SampleRequest& request) {
 void check_exclusions(const SampleRequest& request) {
     if (request.ddx.empty() != request.ddy.empty())
         throw UsageError(request.ddx.empty() ? "--ddy without --ddx (both, or neither)" : "--ddx without --ddy (both, or neither)");
+    if (request.lookup.footprint.ellipse > 0 && request.max_lod) throw UsageError("--max-lod: --ewa reads level 0, or that of --min-lod");
     if (!request.lod) return;
+    if (request.lookup.names_lod_rule) throw UsageError("--lod and --lod-rule exclude each other: the rule is for derivatives");
     if (!request.ddx.empty()) throw UsageError("--lod and --ddx exclude each other");
     if (request.lookup.footprint.probes)
         throw UsageError("--lod and --aniso exclude each other: probes lie along the longer of the derivatives");
@@ -161,7 +166,7 @@ void declare_sample_request(CommandLine& line, SampleRequest& request) {
 std::vector<LookupPlace> settle_places(const SampleRequest& request, std::string_view usage) {
     check_exclusions(request);
     check_draws(request);
-    check_hybrid_bias(request.lookup.footprint, request.lookup.filtering);
+    check_lookup(request.lookup);
     if (!request.coordinates) throw UsageError("--uv U,V is missing (usage: rawtexel " + std::string(usage) + ")");
     const auto& [kind, place, file] = *request.coordinates;
     std::vector<LookupPlace> places = file.empty() ? std::vector{place} : read_places(file, kind);

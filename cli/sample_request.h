@@ -27,6 +27,7 @@ struct SampleRequest {
     int layer = 0;             ///< of an array, or cube of an array of cubes
     LookupOptions lookup;
     std::optional<std::array<texunit::Wrap, 3>> wraps;  ///< unset: repeat; cube maps have none
+    size_t wraps_given = 0;                             ///< axes that --wrap names, 1..3
     std::optional<std::array<float, 4>> border;         ///< unset: 0
     std::optional<float> min_lod, max_lod;
     std::optional<ColorSpace> color_space;

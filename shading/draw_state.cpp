@@ -1,5 +1,6 @@
 #include "shading/draw_state.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace rawtexel::shading {
@@ -194,6 +195,17 @@ uint64_t moment_bytes(const DrawStates& states) {
     return sum;
 }
 
+/// Whether some lookup, branch or shadow test of the frame takes numbers that a noise gives; dithers have numbers of their own.
+bool takes_noise(const DrawStates& states, const FilteringOptions& filtering) {
+    if (filtering.estimator != texunit::Estimator::All || draws_level(filtering.baseline)) return true;
+    if (filtering.texture_jitter != TextureJitter::None || filtering.shadow_taps == ShadowTaps::One) return true;
+    if (filtering.effective_blend() == Blend::Draw && !is_dither(filtering.baseline)) return true;
+    const auto draws = [](const MapState& map) { return map.texture != nullptr && map.sampler.estimator != texunit::Estimator::All; };
+    return std::ranges::any_of(states.materials, [&](const MaterialState& state) {
+        return state.plans.dither == texunit::Dither::None && std::ranges::any_of(state.maps, draws);
+    });
+}
+
 /// Columns are cross products of the matrix's columns: M's cofactors, which take cross(a, b) to cross(Ma, Mb).
 glm::mat3 cofactors(const glm::mat3& m) { return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])}; }
 
@@ -233,6 +245,8 @@ std::string refusal(const Scene& scene, const LookupOverrides& overrides) {
     if (const uint64_t bytes = moment_bytes(states); bytes > kMostMomentBytes)
         return "baseline " + std::string(to_string(filtering.baseline)) + ": moments of the normal maps take " +
                std::to_string(bytes >> 20) + " MiB (allowed: " + std::to_string(kMostMomentBytes >> 20) + ")";
+    if (filtering.noise != texunit::Noise::White && !takes_noise(states, filtering))
+        return "noise " + std::string(to_string(filtering.noise)) + ": nothing draws (allowed: white, or an estimator that draws)";
     for (const MaterialState& state : states.materials) {
         const std::string material = "material '" + state.material->name + "': ";
         if (filtering.baseline != Baseline::None && state.branches())

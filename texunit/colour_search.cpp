@@ -10,12 +10,16 @@ namespace {
 /// Boxes looked at in one family before it counts as searched. Wrong colours need a handful; right ones are found by descent.
 constexpr int kMostBoxes = 4096;
 
-Colour colour_in(const ColourPatch& patch, double x, double y) {
+Colour colour_in(const ColourPatch& patch, const double* place) {
+    const auto bilinear = [&](const Colour* corner, size_t c) {
+        const double upper = corner[0][c] + place[0] * (corner[1][c] - corner[0][c]);
+        const double lower = corner[2][c] + place[0] * (corner[3][c] - corner[2][c]);
+        return upper + place[1] * (lower - upper);
+    };
     Colour colour;
     for (size_t c = 0; c < 4; ++c) {
-        const double upper = patch.corner[0][c] + x * (patch.corner[1][c] - patch.corner[0][c]);
-        const double lower = patch.corner[2][c] + x * (patch.corner[3][c] - patch.corner[2][c]);
-        colour[c] = upper + y * (lower - upper);
+        colour[c] = bilinear(patch.corner.data(), c);
+        if (patch.sides == 3) colour[c] += place[2] * (bilinear(patch.corner.data() + 4, c) - colour[c]);
     }
     return colour;
 }
@@ -45,26 +49,59 @@ ColourSearch::ColourSearch(const Colour& wanted, double threshold)
 }
 
 void ColourSearch::visit(const ColourPatch& patch) {
+    if (!can_improve(patch.least, patch.most)) return;
     finer_ = &patch;
     coarser_ = nullptr;
-    sides_ = 2;
+    sides_ = patch.sides;
     boxes_left_ = kMostBoxes;
-    search({Range{0, 1}, {0, 1}, {0, 0}, {0, 0}, {0, 0}}, true);
+    Box box{};
+    std::fill_n(box.begin(), sides_, Range{0, 1});
+    search(box);
 }
 
-void ColourSearch::visit(const ColourPatch& finer, const ColourPatch& coarser, Range share) {
+void ColourSearch::visit(const ColourPatch& finer, const ColourPatch& coarser, Range share, Effort effort) {
+    Colour low, high;
+    for (size_t c = 0; c < 4; ++c) {
+        const auto mixed = [&](const Colour& a, const Colour& b, double s) { return a[c] + s * (b[c] - a[c]); };
+        low[c] = std::min(mixed(finer.least, coarser.least, share.low), mixed(finer.least, coarser.least, share.high));
+        high[c] = std::max(mixed(finer.most, coarser.most, share.low), mixed(finer.most, coarser.most, share.high));
+    }
+    if (!can_improve(low, high)) return;
     finer_ = &finer;
     coarser_ = &coarser;
-    sides_ = kMostSides;
+    sides_ = 2 * finer.sides + 1;
     boxes_left_ = kMostBoxes;
-    search({Range{0, 1}, {0, 1}, {0, 1}, {0, 1}, share}, true);
+    Box box{};
+    std::fill_n(box.begin(), sides_ - 1, Range{0, 1});
+    box[sides_ - 1] = share;
+    if (effort == Effort::Whole) return search(box);
+    Place middle{};
+    for (size_t side = 0; side < sides_; ++side) middle[side] = (box[side].low + box[side].high) / 2;
+    descend(box, middle);
+}
+
+void ColourPatch::find_bounds() {
+    least = most = corner[0];
+    for (size_t n = 1; n < corners(); ++n) {
+        for (size_t c = 0; c < 4; ++c) least[c] = std::min(least[c], corner[n][c]), most[c] = std::max(most[c], corner[n][c]);
+    }
+}
+
+/// Takes note of a family's bounds; false where nothing within them is closer than what has been found.
+bool ColourSearch::can_improve(const Colour& least, const Colour& most) {
+    double outside = 0;
+    for (size_t c = 0; c < 4; ++c) {
+        least_[c] = std::min(least_[c], least[c]), most_[c] = std::max(most_[c], most[c]);
+        outside = std::max({outside, least[c] - wanted_[c], wanted_[c] - most[c]});
+    }
+    return excess_ > 1 && outside < excess_ * threshold_;
 }
 
 Colour ColourSearch::colour_at(const Place& place) const {
-    Colour colour = colour_in(*finer_, place[0], place[1]);
+    Colour colour = colour_in(*finer_, place.data());
     if (coarser_ == nullptr) return colour;
-    const Colour second = colour_in(*coarser_, place[2], place[3]);
-    for (size_t c = 0; c < 4; ++c) colour[c] += place[4] * (second[c] - colour[c]);
+    const Colour second = colour_in(*coarser_, place.data() + finer_->sides);
+    for (size_t c = 0; c < 4; ++c) colour[c] += place[sides_ - 1] * (second[c] - colour[c]);
     return colour;
 }
 
@@ -81,7 +118,7 @@ double ColourSearch::measure(const Colour& colour) {
 }
 
 /// Branch and bound: a multilinear function over a box lies between its values at the corners, so that most boxes are ruled out whole.
-void ColourSearch::search(const Box& box, bool whole) {
+void ColourSearch::search(const Box& box) {
     std::array<Colour, size_t{1} << kMostSides> colours;
     Colour least, most;
     const size_t corners = size_t{1} << sides_;
@@ -94,10 +131,6 @@ void ColourSearch::search(const Box& box, bool whole) {
             least[c] = n == 0 ? colours[n][c] : std::min(least[c], colours[n][c]);
             most[c] = n == 0 ? colours[n][c] : std::max(most[c], colours[n][c]);
         }
-    }
-    for (size_t c = 0; whole && c < 4; ++c) {
-        least_[c] = std::min(least_[c], least[c]);
-        most_[c] = std::max(most_[c], most[c]);
     }
     if (excess_ <= 1) return;
 
@@ -127,8 +160,8 @@ void ColourSearch::search(const Box& box, bool whole) {
     }
     Box lower = box, upper = box;
     lower[widest].high = upper[widest].low = middle[widest];
-    search(lower, false);
-    if (excess_ > 1) search(upper, false);
+    search(lower);
+    if (excess_ > 1) search(upper);
 }
 
 /// Change of the colour along each side.

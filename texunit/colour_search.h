@@ -13,21 +13,30 @@ struct Range {
     double low, high;
 };
 
-/// Colours that one level may give for coordinates within a stretch of each axis: bilinear between four.
+/// Colours that one level may give for coordinates within a stretch of each axis: bilinear between four, of volumes trilinear between
+/// eight.
 struct ColourPatch {
-    std::array<Colour, 4> corner;  ///< [2*y + x]
+    size_t sides = 2;                ///< 2 or 3
+    std::array<Colour, 8> corner{};  ///< [4*z + 2*y + x]
+    Colour least{}, most{};          ///< of the corners, each channel by itself
+    size_t corners() const { return size_t{1} << sides; }
+    /// Sets least and most.
+    void find_bounds();
 };
 
 /// Looks for the colour closest to one that is wanted, until one is close enough.
 class ColourSearch {
   public:
+    /// Descent alone finds most colours that are there; only the whole search finds that one is not.
+    enum class Effort { Descent, Whole };
+
     /// Close enough is within `threshold` in every channel.
     ColourSearch(const Colour& wanted, double threshold);
 
     /// All colours of one level's patch.
     void visit(const ColourPatch& patch);
-    /// Those of two levels' patches, mixed with a share of `coarser` within `share`; places in the two are independent.
-    void visit(const ColourPatch& finer, const ColourPatch& coarser, Range share);
+    /// Those of two levels' patches of as many sides, mixed with a share of `coarser` within `share`; places in the two are independent.
+    void visit(const ColourPatch& finer, const ColourPatch& coarser, Range share, Effort effort = Effort::Whole);
 
     /// Of the closest colour found: its largest difference of a channel in thresholds. At most 1: a legal one was found.
     double excess() const { return excess_; }
@@ -37,14 +46,15 @@ class ColourSearch {
     const Colour& most() const { return most_; }
 
   private:
-    /// Coordinates of a colour in its family: x, y of the finer patch, x, y of the coarser, share.
-    static constexpr size_t kMostSides = 5;
+    /// Coordinates of a colour in its family: those of the finer patch, those of the coarser, share.
+    static constexpr size_t kMostSides = 7;
     using Place = std::array<double, kMostSides>;
     using Box = std::array<Range, kMostSides>;
 
     Colour colour_at(const Place& place) const;
     double measure(const Colour& colour);
-    void search(const Box& box, bool whole);
+    bool can_improve(const Colour& least, const Colour& most);
+    void search(const Box& box);
     void descend(const Box& box, Place place);
     std::array<Colour, kMostSides> slopes(const Place& place) const;
 

@@ -1,13 +1,13 @@
 #include "texunit/legal_interval.h"
 
-#include "texunit/colour_search.h"
-#include "texunit/kernel_value.h"
+#include "texunit/colour_hull.h"
+#include "texunit/legal_judge.h"
+#include "texunit/probe_table.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -15,228 +15,174 @@
 namespace rawtexel::texunit {
 namespace {
 
-/// One step of a mantissa of `bits` bits at `value`.
-double float_error(double value, int bits) { return value == 0 ? 0 : std::ldexp(1.0, std::ilogb(value) - bits); }
-Range with_float_error(double value, int bits) {
-    const double error = float_error(value, bits);
-    return {value - error, value + error};
-}
-
-/// Smallest and largest magnitude in a range.
-Range magnitude(Range r) {
-    const double low = std::abs(r.low), high = std::abs(r.high);
-    return {r.low <= 0 && r.high >= 0 ? 0 : std::min(low, high), std::max(low, high)};
-}
-
-/// Legal scale factors rho_max (Vulkan "Scale Factor Operation").
-Range scale_factors(const JudgedTexture& texture, const SamplerState& sampler, const JudgedLookup& at, const LegalPrecision& precision) {
-    const auto component = [&](double derivative, int extent) {
-        const Range r = magnitude(with_float_error(derivative, precision.derivative_bits));
-        return Range{r.low * extent, r.high * extent};
-    };
-    const Range sx = component(at.dudx, texture.width), tx = component(at.dvdx, texture.height);
-    const Range sy = component(at.dudy, texture.width), ty = component(at.dvdy, texture.height);
-    if (precision.approximate_scale) {
-        const double sum = std::max(sx.high, sy.high) + std::max(tx.high, ty.high);
-        return {std::max({sx.low, tx.low, sy.low, ty.low}), std::numbers::sqrt2 * sum};
-    }
-    const Range x{std::hypot(sx.low, tx.low), std::hypot(sx.high, tx.high)}, y{std::hypot(sy.low, ty.low), std::hypot(sy.high, ty.high)};
-    if (sampler.lod_rule == LodRule::D3d) return {std::max(x.low, y.low), std::max(x.high, y.high)};
-    // The largest singular value is at least the longer column and at most that of the magnitudes.
-    const double mixed = sx.high * sy.high + tx.high * ty.high;
-    const double half_sum = (x.high * x.high + y.high * y.high) / 2, half_difference = (x.high * x.high - y.high * y.high) / 2;
-    return {std::max(x.low, y.low), std::sqrt(half_sum + std::hypot(half_difference, mixed))};
-}
-
-/// Legal levels of detail after bias and bounds. Bounds are as exact as the level of detail's bits.
-Range lods(const JudgedTexture& texture, const SamplerState& sampler, const JudgedLookup& at, const LegalPrecision& precision) {
-    const double step = std::ldexp(1.0, -precision.lod_bits);
-    const double bias = double(sampler.lod_bias);
-    Range lod{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    if (std::isfinite(at.dudx) && std::isfinite(at.dvdx) && std::isfinite(at.dudy) && std::isfinite(at.dvdy)) {
-        const Range rho = scale_factors(texture, sampler, at, precision);
-        lod = {std::log2(rho.low) - step + bias, std::log2(rho.high) + step + bias};
-    }
-    const Range least{std::floor(double(sampler.min_lod) / step) * step, std::ceil(double(sampler.min_lod) / step) * step};
-    const Range most{std::floor(double(sampler.max_lod) / step) * step, std::ceil(double(sampler.max_lod) / step) * step};
-    return {std::max(std::min(lod.low, most.low), least.low), std::max(std::min(lod.high, most.high), least.high)};
-}
-
-/// Texel-space coordinates that an axis may be read at, far outside less the part that makes no difference.
-Range texel_space(Wrap wrap, double coordinate, int extent, const LegalPrecision& precision) {
-    const double u = std::isfinite(coordinate) ? coordinate : 0;
-    const double error = float_error(u, precision.coordinate_bits) * extent + std::ldexp(1.0, -precision.subtexel_bits);
-    const bool repeats = wrap == Wrap::Repeat || wrap == Wrap::MirroredRepeat;
-    const double reduced = repeats ? std::fmod(u, 2.0) : std::clamp(u, -1000.0, 1000.0);
-    return {reduced * extent - error, reduced * extent + error};
-}
-
-constexpr int kBorder = -1;
-
-/// Vulkan "Wrapping Operation".
-int wrap_index(Wrap wrap, int64_t i, int extent) {
-    const auto modulo = [](int64_t a, int64_t n) { return (a % n + n) % n; };
-    switch (wrap) {
-        case Wrap::Repeat: return int(modulo(i, extent));
-        case Wrap::MirroredRepeat: {
-            const int64_t place = modulo(i, 2 * int64_t{extent});
-            return int(std::min(place, 2 * int64_t{extent} - 1 - place));
-        }
-        case Wrap::ClampToEdge: return int(std::clamp<int64_t>(i, 0, extent - 1));
-        case Wrap::ClampToBorder: return i < 0 || i >= extent ? kBorder : int(i);
-        case Wrap::MirrorOnce: return int(std::clamp<int64_t>(i < 0 ? -1 - i : i, 0, extent - 1));
-    }
-    return 0;
-}
-
-/// A stretch of an axis over which every weight is linear in the coordinate: the weights at its two ends. Neighbouring stretches meet,
-/// but where texels change abruptly they do not agree there.
-struct Stretch {
-    std::vector<WeightedTexel> from, to;
+/// Where and how one lookup may be made.
+struct Reading {
+    const JudgedTexture& texture;
+    const SamplerState& sampler;
+    const LegalPatches& patches;
+    const LegalPlace& place;
+    const LegalLine& line;
 };
 
-/// The weights of smooth kernels pass for linear over a stretch this long, in texels: their curvature is below 16 a texel^2, so that they
-/// are off by 2e-6. Wide ranges, of low precision, are cut into this many stretches at most.
-constexpr double kLongestStretch = 1.0 / 1024;
-constexpr double kMostStretches = 24;
-
-/// Where the weights of a kernel, as functions of the coordinate, bend or jump: at texel edges and centres, and where a Gaussian's interval
-/// of 4 sigma ends at one.
-std::vector<double> breaks_within(const Kernel& kernel, Range x) {
-    std::vector<double> breaks = {x.low, x.high};
-    const auto add = [&](double first, double step) {
-        for (double at = first + std::ceil((x.low - first) / step) * step; at < x.high; at += step) breaks.push_back(at);
-    };
-    add(0, 0.5);
-    if (kernel.kind == KernelKind::Gaussian || kernel.kind == KernelKind::GaussianPoint) {
-        const double centre = kernel.kind == KernelKind::Gaussian ? 0 : 0.5;
-        add(centre - 4 * double(kernel.b), 1);
-        add(centre + 4 * double(kernel.b), 1);
-    }
-    std::sort(breaks.begin(), breaks.end());
-    breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
-    return breaks;
-}
-
-std::vector<Stretch> stretches(const Kernel& kernel, Range x) {
-    const std::vector<double> breaks = breaks_within(kernel, x);
-    const double longest = std::max(kLongestStretch, (x.high - x.low) / kMostStretches);
-    std::vector<Stretch> all;
-    for (size_t n = 1; n < breaks.size(); ++n) {
-        const double low = breaks[n - 1], high = breaks[n];
-        if (kernel.kind == KernelKind::Nearest) {
-            const auto taps = axis_weights(kernel, (low + high) / 2);
-            all.push_back({taps, taps});
-            continue;
-        }
-        // Just inside the ends, so that both lie on the same side of a break.
-        const int parts = kernel.kind == KernelKind::Bilinear ? 1 : int(std::ceil((high - low) / longest));
-        const double inset = std::min(1e-10, (high - low) / 4);
-        const auto at = [&](int part) { return std::clamp(low + (high - low) * part / std::max(parts, 1), low + inset, high - inset); };
-        for (int part = 0; part < std::max(parts, 1); ++part)
-            all.push_back({axis_weights(kernel, at(part)), axis_weights(kernel, at(part + 1))});
-    }
-    // At the very ends of 4 sigma both outermost texels count, which neither neighbouring stretch shows; snapped coordinates fall there.
-    if (kernel.kind == KernelKind::GaussianPoint) {
-        for (const double at : breaks) all.push_back({axis_weights(kernel, at), axis_weights(kernel, at)});
-    }
-    return all;
-}
-
-class PatchMaker {
-  public:
-    PatchMaker(const JudgedTexture& texture, const SamplerState& sampler, const JudgedLookup& at, const LegalPrecision& precision)
-        : texture_(texture), sampler_(sampler), at_(at), precision_(precision) {}
-
-    std::vector<ColourPatch> patches(const Kernel& kernel, int level) const {
-        const int width = std::max(1, texture_.width >> level), height = std::max(1, texture_.height >> level);
-        const auto columns = stretches(kernel, texel_space(sampler_.wrap_s, at_.u, width, precision_));
-        const auto rows = stretches(kernel, texel_space(sampler_.wrap_t, at_.v, height, precision_));
-        std::vector<ColourPatch> all;
-        for (const Stretch& row : rows) {
-            for (const Stretch& column : columns) {
-                const auto corner = [&](const auto& x, const auto& y) { return colour(level, width, height, x, y); };
-                all.push_back(
-                    {{corner(column.from, row.from), corner(column.to, row.from), corner(column.from, row.to), corner(column.to, row.to)}});
-            }
-        }
-        return all;
-    }
-
-  private:
-    Colour colour(int level, int width, int height, const std::vector<WeightedTexel>& columns,
-                  const std::vector<WeightedTexel>& rows) const {
-        Colour sum{};
-        for (const WeightedTexel& row : rows) {
-            const int y = wrap_index(sampler_.wrap_t, row.texel, height);
-            for (const WeightedTexel& column : columns) {
-                const int x = wrap_index(sampler_.wrap_s, column.texel, width);
-                const bool border = x == kBorder || y == kBorder;
-                const Colour texel = border ? Colour{sampler_.border[0], sampler_.border[1], sampler_.border[2], sampler_.border[3]}
-                                            : texture_.texel(level, x, y);
-                for (size_t c = 0; c < 4; ++c) sum[c] += row.weight * column.weight * texel[c];
-            }
-        }
-        return sum;
-    }
-
-    const JudgedTexture& texture_;
-    const SamplerState& sampler_;
-    const JudgedLookup& at_;
-    const LegalPrecision& precision_;
-};
-
-/// All colours that a kernel gives for legal levels of detail `lod`.
-void search_levels(const PatchMaker& maker, const Kernel& kernel, MipMode mip, int levels, Range lod, ColourSearch& search) {
-    const auto one_level = [&](int level) {
-        for (const ColourPatch& patch : maker.patches(kernel, level)) search.visit(patch);
-    };
+/// Calls one(level) and two(level, coarser level, range of its share) for what legal levels of detail `lod` read.
+template <class One, class Two>
+void for_levels(MipMode mip, int levels, Range lod, const One& one, const Two& two) {
     const double last = levels - 1;
     const Range d{std::clamp(lod.low, 0.0, last), std::clamp(lod.high, 0.0, last)};
-    if (mip == MipMode::None) return one_level(0);
+    if (mip == MipMode::None) return one(0);
     if (mip == MipMode::Nearest) {
         // Half-way either level is legal (Vulkan "Image Level(s) Selection").
         const int first = int(std::ceil(d.low + 0.5)) - 1, end = std::min(int(std::floor(d.high + 0.5)), levels - 1);
-        for (int level = first; level <= end; ++level) one_level(level);
+        for (int level = std::max(first, 0); level <= end; ++level) one(level);
         return;
     }
     for (int level = int(std::floor(d.low)); level <= int(std::floor(d.high)); ++level) {
         const Range share{std::clamp(d.low - level, 0.0, 1.0), std::clamp(d.high - level, 0.0, 1.0)};
         if (level == levels - 1 || share.high == 0) {
-            one_level(level);
+            one(level);
             continue;
         }
-        const auto coarser = maker.patches(kernel, level + 1);
-        for (const ColourPatch& patch : maker.patches(kernel, level)) {
-            for (const ColourPatch& second : coarser) search.visit(patch, second, share);
-        }
+        two(level, share);
     }
+}
+
+/// Whether a coordinate is too far off to be judged in any of the levels.
+bool is_open(const Reading& reading, const LegalPlace& place) {
+    const double first = reading.sampler.mip == MipMode::None ? 0 : reading.line.lod.low - 0.5;
+    return reading.patches.is_open(place, int(std::clamp(std::floor(first), 0.0, double(reading.texture.shape.levels - 1))));
+}
+
+/// All colours of one probe.
+void search_one(const Reading& reading, const Kernel& kernel, Range lod, ColourSearch& search) {
+    for_levels(
+        reading.sampler.mip, reading.texture.shape.levels, lod,
+        [&](int level) {
+            for (const ColourPatch& patch : reading.patches.at(reading.place, kernel, level)) search.visit(patch);
+        },
+        [&](int level, Range share) {
+            const auto finer = reading.patches.at(reading.place, kernel, level);
+            const auto coarser = reading.patches.at(reading.place, kernel, level + 1);
+            for (const auto effort : {ColourSearch::Effort::Descent, ColourSearch::Effort::Whole}) {
+                for (const ColourPatch& patch : finer) {
+                    for (const ColourPatch& second : coarser) search.visit(patch, second, share, effort);
+                }
+                if (search.excess() <= 1) return;
+            }
+        });
+}
+
+/// The closest of sums of probes.
+struct HullSearch {
+    const Colour& wanted;
+    double threshold;
+    double excess = std::numeric_limits<double>::infinity();
+    Colour closest{}, least, most;
+
+    void visit(const ColourHull& finer, const ColourHull& coarser, Range share) {
+        Colour low, high;
+        for (size_t c = 0; c < 4; ++c) {
+            const auto mixed = [&](const Colour& a, const Colour& b, double s) { return a[c] + s * (b[c] - a[c]); };
+            const Colour finer_low = finer.least(), finer_high = finer.most(), coarser_low = coarser.least(), coarser_high = coarser.most();
+            low[c] = std::min(mixed(finer_low, coarser_low, share.low), mixed(finer_low, coarser_low, share.high));
+            high[c] = std::max(mixed(finer_high, coarser_high, share.low), mixed(finer_high, coarser_high, share.high));
+            least[c] = std::min(least[c], low[c]), most[c] = std::max(most[c], high[c]);
+        }
+        const double found = ColourHull::excess(finer, coarser, share, wanted, threshold);
+        if (found >= excess) return;
+        excess = found;
+        for (size_t c = 0; c < 4; ++c) closest[c] = std::clamp(wanted[c], low[c], high[c]);
+    }
+};
+
+/// Where probe i of a line may lie.
+LegalPlace probe_place(const Reading& reading, double place_on_axis) {
+    LegalPlace place = reading.place;
+    for (size_t axis = 0; axis < 2; ++axis) {
+        const double distance = place_on_axis * reading.line.axis[axis].value;
+        // The sum is rounded once more, in steps of its own size and of those of its parts.
+        place.at[axis].error += std::abs(place_on_axis) * reading.line.axis[axis].error + std::abs(distance) * 0x1p-22;
+        place.at[axis].value += distance;
+    }
+    return place;
+}
+
+const ProbeTable& probe_table(const LegalLine& line) { return line.normal ? gaussian_probes() : uniform_probes(); }
+
+/// The probes of a line in one level, each at its own place.
+ColourHull probe_sum(const Reading& reading, const Kernel& kernel, int level) {
+    const LegalLine& line = reading.line;
+    const ProbeTable& table = probe_table(line);
+    const auto first = size_t(kMostProbes * line.probes), count = size_t(line.probes);
+    ColourHull sum;
+    for (size_t i = first; i < first + count; ++i)
+        sum.add(double(table.weight[i]), reading.patches.at(probe_place(reading, double(table.place[i])), kernel, level));
+    return sum;
+}
+
+void search_probes(const Reading& reading, const Kernel& kernel, Range lod, HullSearch& search) {
+    for_levels(
+        reading.sampler.mip, reading.texture.shape.levels, lod,
+        [&](int level) {
+            const ColourHull sum = probe_sum(reading, kernel, level);
+            search.visit(sum, sum, {0, 0});
+        },
+        [&](int level, Range share) { search.visit(probe_sum(reading, kernel, level), probe_sum(reading, kernel, level + 1), share); });
 }
 
 }  // namespace
 
+LegalVerdict judge_suspected(const JudgedTexture& texture, const SamplerState& sampler, const JudgedLookup& lookup, const Colour& colour,
+                             const LegalPrecision& precision, const Suspicion& suspicion) {
+    assert(sampler.ellipse <= 0 && sampler.probes >= 1 && sampler.probes <= kMostProbes);
+    const LegalPatches patches(texture, sampler, precision, suspicion.address);
+    ColourSearch search(colour, precision.colour_threshold);
+    HullSearch hulls{.wanted = colour, .threshold = precision.colour_threshold, .least = search.least(), .most = search.most()};
+    bool open = false;
+    LegalVerdict verdict;
+    verdict.fewest_probes = kMostProbes;
+    verdict.least_lod = std::numeric_limits<double>::infinity(), verdict.most_lod = -verdict.least_lod;
+    for (const LegalPlace& place : legal_places(texture.shape, lookup, precision)) {
+        for (const LegalLine& line : legal_lines(texture.shape, sampler, place, precision, suspicion.footprint)) {
+            verdict.least_lod = std::min(verdict.least_lod, line.lod.low), verdict.most_lod = std::max(verdict.most_lod, line.lod.high);
+            verdict.fewest_probes = std::min(verdict.fewest_probes, line.probes);
+            verdict.most_probes = std::max(verdict.most_probes, line.probes);
+            const Reading reading{texture, sampler, patches, place, line};
+            // The first of a line lies as far off as the last.
+            const double outermost = line.probes == 1 ? 0 : double(probe_table(line).place[size_t(kMostProbes * line.probes)]);
+            open = open || is_open(reading, probe_place(reading, outermost));
+            if (open) break;
+            const auto filter = [&](const Kernel& kernel, Range lod) {
+                if (line.probes == 1) return search_one(reading, kernel, lod, search);
+                search_probes(reading, kernel, lod, hulls);
+            };
+            if (*line.magnified == *line.minified) {
+                filter(*line.magnified, line.lod);
+                continue;
+            }
+            if (line.lod.low <= 0) filter(*line.magnified, {line.lod.low, std::min(line.lod.high, 0.0)});
+            if (line.lod.high > 0) filter(*line.minified, {std::max(line.lod.low, 0.0), line.lod.high});
+        }
+    }
+    if (open) {
+        verdict.legal = true;
+        verdict.closest = colour;
+        verdict.least.fill(-std::numeric_limits<double>::infinity()), verdict.most.fill(std::numeric_limits<double>::infinity());
+        return verdict;
+    }
+    const bool by_hull = hulls.excess < search.excess();
+    verdict.excess = by_hull ? hulls.excess : search.excess();
+    verdict.closest = by_hull ? hulls.closest : search.closest();
+    verdict.legal = verdict.excess <= 1;
+    for (size_t c = 0; c < 4; ++c) {
+        verdict.least[c] = std::min(search.least()[c], hulls.least[c]);
+        verdict.most[c] = std::max(search.most()[c], hulls.most[c]);
+    }
+    return verdict;
+}
+
 LegalVerdict judge_lookup(const JudgedTexture& texture, const SamplerState& sampler, const JudgedLookup& lookup, const Colour& colour,
                           const LegalPrecision& precision) {
-    assert(sampler.probes == 1 && sampler.ellipse == 0);
-    const Range lod = lods(texture, sampler, lookup, precision);
-    const PatchMaker maker(texture, sampler, lookup, precision);
-    ColourSearch search(colour, precision.colour_threshold);
-    const bool magnifies = lod.low <= 0, minifies = lod.high > 0;
-    if (sampler.magnify == sampler.minify) {
-        search_levels(maker, sampler.magnify, sampler.mip, texture.levels, lod, search);
-    } else {
-        if (magnifies) {
-            search_levels(maker, sampler.magnify, sampler.mip, texture.levels, {lod.low, std::min(lod.high, 0.0)}, search);
-        }
-        if (minifies) search_levels(maker, sampler.minify, sampler.mip, texture.levels, {std::max(lod.low, 0.0), lod.high}, search);
-    }
-    LegalVerdict verdict;
-    verdict.legal = search.excess() <= 1;
-    verdict.least = search.least(), verdict.most = search.most();
-    verdict.closest = search.closest();
-    verdict.excess = search.excess();
-    verdict.least_lod = lod.low, verdict.most_lod = lod.high;
-    return verdict;
+    return judge_suspected(texture, sampler, lookup, colour, precision, {});
 }
 
 std::string to_string(const LegalVerdict& verdict, const Colour& colour) {
@@ -249,6 +195,7 @@ std::string to_string(const LegalVerdict& verdict, const Colour& colour) {
     put(verdict.most) << ", closest ";
     put(verdict.closest) << " (" << verdict.excess << " thresholds off), level of detail " << verdict.least_lod << " to "
                          << verdict.most_lod;
+    if (verdict.most_probes > 1) text << ", probes " << verdict.fewest_probes << " to " << verdict.most_probes;
     return text.str();
 }
 

@@ -36,6 +36,14 @@ texunit::DrawTrace draw_place(Texture& texture, const SamplerState& sampler, con
     return trace_draws(texture, sampler, {at[0], at[1], dx[0], dx[1], dy[0], dy[1]}, source, float(layer));
 }
 
+/// Throws UsageError for a wrap of an axis that there is not, and for a border colour that no axis takes.
+void check_wraps(const std::string& name, CoordinateKind kind, const SamplerState& sampler, const SampleRequest& request) {
+    if (kind == CoordinateKind::Uv && request.wraps_given > 2) throw UsageError("--wrap: '" + name + "' is flat (allowed: S[,T])");
+    const texunit::Wrap border = texunit::Wrap::ClampToBorder;
+    const bool bordered = sampler.wrap_s == border || sampler.wrap_t == border || (kind == CoordinateKind::Uvw && sampler.wrap_r == border);
+    if (request.border && !bordered) throw UsageError("--border without --wrap border: no axis has a border");
+}
+
 /// Throws UsageError where the options ask for what a texture of this shape does not have.
 void check_shape(const std::string& name, const Shape& shape, const SampleRequest& request) {
     const CoordinateKind given = request.coordinates->kind, needed = coordinate_kind(shape);
@@ -49,6 +57,7 @@ void check_shape(const std::string& name, const Shape& shape, const SampleReques
                          ", which is filtered isotropically");
     if (shape.cube && (request.wraps || request.border))
         throw UsageError(std::string(request.wraps ? "--wrap" : "--border") + ": '" + name + "' is a cube map, which has no edges");
+    check_wraps(name, needed, sampler, request);
     const int layers = shape.cubes();
     if (request.layer >= layers)
         throw UsageError("--layer: '" + name + "' has no layer " + std::to_string(request.layer) + " (0 to " + std::to_string(layers - 1) +

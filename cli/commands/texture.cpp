@@ -104,7 +104,7 @@ class TextureCommand : public Command {
     std::string output_;
     SliceChoice choice_;
     std::optional<ColorSpace> color_space_;
-    texunit::MipStorage mip_storage_ = texunit::MipStorage::Source;
+    std::optional<texunit::MipStorage> mip_storage_;  ///< unset: Source
     texunit::ContainerOptions files_;
     bool json_ = false;
 };
@@ -117,6 +117,7 @@ void TextureCommand::check_options(size_t action) const {
     if (!is_info && json_) refuse("--json");
     if (action != 1 && choice_.level) refuse("--level");
     if (is_info && (choice_.layer || choice_.face || choice_.depth_slice)) refuse("--layer, --face or --slice");
+    if (is_info && (mip_storage_ || files_.bc_rounding != texunit::BcRounding::Exact)) refuse("--mip-storage or --bc-rounding");
     if (is_info) return;
     if (output_.empty()) throw UsageError("-o IMAGE is missing (usage: rawtexel texture " + words_[0] + " FILE -o IMAGE)");
     if (action != 2 || !is_dds(output_)) return check_image_format("-o", output_);
@@ -135,7 +136,8 @@ int TextureCommand::tell(const Invocation& invocation) const {
 int TextureCommand::write_dds(const Invocation& invocation) const {
     const std::string& path = words_[1];
     check_outputs(std::vector<OutputFile>{{"-o", output_}}, {&path, 1});
-    Texture texture(path, open_texture_file(path, color_space_, files_).source, {.mip_storage = mip_storage_});
+    Texture texture(path, open_texture_file(path, color_space_, files_).source,
+                    {.mip_storage = mip_storage_.value_or(texunit::MipStorage::Source)});
     scenes::write_file(output_, texunit::encode_dds(texture));
     invocation.out << "Saved: " << output_ << '\n';
     return kDone;
@@ -145,7 +147,7 @@ int TextureCommand::write_images(const Invocation& invocation, bool every_level)
     const std::string& path = words_[1];
     TextureFile file = open_texture_file(path, color_space_, files_);
     check_holds_texels("-o", output_, file.source->format());
-    Texture texture(path, std::move(file.source), {.mip_storage = mip_storage_});
+    Texture texture(path, std::move(file.source), {.mip_storage = mip_storage_.value_or(texunit::MipStorage::Source)});
 
     const int levels = texture.shape().levels;
     const int first = checked("--level", choice_.level, levels, "levels of the pyramid"), end = every_level ? levels : first + 1;

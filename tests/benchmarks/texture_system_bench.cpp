@@ -202,6 +202,7 @@ BENCHMARK_CAPTURE(ours, anisotropic_16, kLong, SamplerState{.probes = 16});
 BENCHMARK_CAPTURE(ours_lazy, anisotropic_16, kLong, SamplerState{.probes = 16});
 BENCHMARK_CAPTURE(ours, anisotropic_16_exact_axes, kLong, SamplerState{.probes = 16, .lod_rule = rawtexel::texunit::LodRule::Exact});
 BENCHMARK_CAPTURE(ours, anisotropic_16_by_variance, kLong, SamplerState{.probes = 16, .probe_variance = 1.0f / 6});
+BENCHMARK_CAPTURE(ours, anisotropic_32_by_variance, kLong, SamplerState{.probes = 32, .probe_variance = 1.0f / 6});
 BENCHMARK_CAPTURE(openimageio, anisotropic_16, kLong, OIIO::TextureOpt::MipModeAniso);
 BENCHMARK_CAPTURE(ours_drawn, stochastic_anisotropic_16, kLong, SamplerState{.probes = 16});
 BENCHMARK_CAPTURE(openimageio, stochastic_anisotropic_16, kLong, OIIO::TextureOpt::MipModeStochasticAniso);

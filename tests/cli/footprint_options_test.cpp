@@ -12,7 +12,8 @@ namespace rawtexel::cli {
 namespace {
 
 shading::FootprintOptions parsed(const std::vector<std::string>& words) {
-    return test::parsed_options<shading::FootprintOptions>(declare_footprint_options, words);
+    const auto declare = [](CommandLine& line, shading::FootprintOptions& footprint) { declare_footprint_options(line, footprint); };
+    return test::parsed_options<shading::FootprintOptions>(declare, words);
 }
 
 std::string complaint(const std::vector<std::string>& words) { return test::complaint_of(parsed, words); }

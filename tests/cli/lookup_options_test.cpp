@@ -125,6 +125,24 @@ TEST(LookupOptions, EveryFilterShowsInARender) {
     }
 }
 
+TEST(LookupOptions, ANoiseIsRefusedWhereNothingDraws) {
+    const TemporaryFolder folder;
+    test::write_quad(folder);
+    const auto with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words{
+            "render", folder / "quad.gltf", "-o", folder / "noise.exr", "--size", "8x8", "--environment", "none", "--noise", "blue"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    };
+    for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--baseline", "ue-dither"}})
+        EXPECT_EQ(test::why_not_failed(with(more), kWrongUsage, "noise blue: nothing draws"), "");
+    for (const std::vector<std::string>& more : {std::vector<std::string>{"--estimator", "reservoir"},
+                                                 {"--shadow-taps", "one"},
+                                                 {"--blend", "draw"},
+                                                 {"--baseline", "oiio-stochastic"}})
+        EXPECT_EQ(with(more).code, kDone) << more[1];
+}
+
 TEST(LookupOptions, GpuPrecisionReachesEveryLookupOfARender) {
     const TemporaryFolder folder;
     test::write_quad(folder);

@@ -117,6 +117,22 @@ TEST(RenderOptions, WrongValuesAreRefusedWithTheNearest) {
     for (const auto& [words, message] : cases) EXPECT_EQ(error_of(words), message);
 }
 
+TEST(RenderOptions, WhatHasNoEffectIsRefused) {
+    const std::initializer_list<std::pair<std::vector<std::string>, const char*>> cases{
+        {{"--ewa", "--filter", "bspline"}, "--filter: "},
+        {{"--mip", "none", "--ewa"}, "--mip: "},
+        {{"--ewa", "--lod-rule", "d3d"}, "--lod-rule: "},
+        {{"--ewa", "--lod-bias", "1"}, "--lod-bias: "},
+        {{"--ewa", "--precision", "gpu"}, "--precision gpu: "},
+        {{"--ewa", "--hybrid-bias", "1"}, "--hybrid-bias: "},
+        {{"--aniso", "16:0.25", "--lod-rule", "exact"}, "--lod-rule: --aniso N:S2 always takes the axes of the ellipse"},
+        {{"--reference", "0.1", "--lod-rule", "d3d"}, "--reference: the truth leaves no choice to --aniso"},
+    };
+    for (const auto& [words, start] : cases) EXPECT_TRUE(error_of(words).starts_with(start)) << words[0] << ": " << error_of(words);
+    EXPECT_EQ(error_of({"--aniso", "16", "--lod-rule", "exact"}), "");
+    EXPECT_EQ(error_of({"--ewa", "--estimator", "jitter", "--hybrid-bias", "1"}), "");
+}
+
 TEST(RenderOptions, WhatLooksLikeAFileIsOneWhetherItExistsOrNot) {
     for (const char* text : {"studio.hdr", "./skyy", "folder/sky", "/skyy"})
         EXPECT_EQ(parse_environment(text), (EnvironmentOption{EnvironmentKind::File, text}));

@@ -70,7 +70,10 @@ TEST(Sample, AddsUpForEveryKernelWrapAndShape) {
         const auto options = [&](std::vector<std::string> place) {
             place.insert(place.end(), {"--filter", filter});
             // Cube maps have no edges.
-            if (place[0] != "--direction") place.insert(place.end(), {"--wrap", wraps[n++ % wraps.size()], "--border", "0.5,1,2,0.25"});
+            if (place[0] == "--direction") return place;
+            const std::string& wrap = wraps[n++ % wraps.size()];
+            place.insert(place.end(), {"--wrap", wrap});
+            if (wrap == "border") place.insert(place.end(), {"--border", "0.5,1,2,0.25"});
             return place;
         };
         expect_adds_up(sample(flat, options({"--uv", "-0.07,1.31", "--ddx", "0.11,0.02", "--ddy", "-0.01,0.3"})), filter);
@@ -269,7 +272,7 @@ TEST(Sample, WrongUsageIsExitCode2) {
         {flat, {"--uvw", "0,0,0"}, "is flat (allowed: --uv U,V)"},
         {volume, {"--uv", "0,0"}, "is a volume (allowed: --uvw U,V,W)"},
         {cube, {"--uv", "0,0"}, "is a cube map (allowed: --direction X,Y,Z)"},
-        {volume, {"--uvw", "0,0,0", "--aniso", "4"}, "--aniso: "},
+        {volume, {"--uvw", "0,0,0", "--ddx", "1,0,0", "--ddy", "0,1,0", "--aniso", "4"}, "--aniso: "},
         {cube, {"--direction", "0,0,1", "--ewa"}, "--ewa: "},
         {flat, {"--uv", "0,0", "--layer", "2"}, "has no layer 2 (0 to 1)"},
         {cube, {"--direction", "0,0,1", "--layer", "1"}, "has no layer 1 (0 to 0)"},
@@ -281,6 +284,14 @@ TEST(Sample, WrongUsageIsExitCode2) {
         {flat, {"--uv", "0,0", "--aniso", "4:0.25", "--ewa"}, "--aniso and --ewa exclude each other"},
         {cube, {"--direction", "0,0,1", "--wrap", "clamp"}, "--wrap: "},
         {cube, {"--direction", "0,0,1", "--border", "1,1,1,1"}, "is a cube map, which has no edges"},
+        {flat, {"--uv", "0,0", "--border", "1,1,1,1"}, "--border without --wrap border"},
+        {flat, {"--uv", "0,0", "--wrap", "clamp,repeat", "--border", "1,1,1,1"}, "--border without --wrap border"},
+        {volume, {"--uvw", "0,0,0", "--wrap", "clamp", "--border", "1,1,1,1"}, "--border without --wrap border"},
+        {flat, {"--uv", "0,0", "--wrap", "clamp,clamp,clamp"}, "is flat (allowed: S[,T])"},
+        {flat, {"--uv", "0,0", "--lod", "1", "--lod-rule", "exact"}, "--lod and --lod-rule exclude each other"},
+        {flat, {"--uv", "0,0", "--lod", "1", "--lod-rule", "d3d"}, "--lod and --lod-rule exclude each other"},
+        {flat, {"--uv", "0,0", "--ewa", "--max-lod", "2"}, "--max-lod: --ewa reads level 0"},
+        {flat, {"--uv", "0,0", "--ewa", "--filter", "bspline"}, "--filter: --ewa has kernel"},
         {cube, {"--direction", "0,0,0"}, "--direction: 0,0,0 is no direction"},
         {cube, {"--direction", "-0,0,0e9"}, "--direction: 0,0,0 is no direction"},
         {flat, {"--uv", "0,0", "--wrap", "repaet"}, "the nearest is 'repeat'"},
@@ -291,6 +302,22 @@ TEST(Sample, WrongUsageIsExitCode2) {
         {flat, {"--uv", "0,0", "--derivatives", "quad"}, "unknown option '--derivatives'"}};
     for (const auto& [texture, more, part] : cases) EXPECT_EQ(why_not_failed(run(sample_words(texture, more)), kWrongUsage, part), "");
     EXPECT_EQ(why_not_failed(run({"sample", "--uv", "0,0"}), kWrongUsage, "missing argument TEXTURE"), "");
+}
+
+TEST(Sample, TakesABorderOfAnyAxisThatHasOne) {
+    const TemporaryFolder folder;
+    const std::string flat = test::write_dds(folder, "flat.dds", {.width = 4, .height = 4}, FileFormat::Rgba8Unorm);
+    const std::string volume = test::write_dds(folder, "v.dds", {.width = 4, .height = 4, .depth = 4}, FileFormat::Rgba8Unorm);
+    const Json colour({0.25, 0.5, 0.75, 1.0});
+    const auto result = [&](const std::string& texture, const std::vector<std::string>& more) {
+        std::vector<std::string> words{"--border", "0.25,0.5,0.75,1"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Json lookup = sample(texture, words);
+        return lookup["result"];
+    };
+    EXPECT_EQ(result(flat, {"--uv", "1.5,0.5", "--wrap", "border,clamp"}), colour);
+    EXPECT_EQ(result(flat, {"--uv", "0.5,1.5", "--wrap", "clamp,border"}), colour);
+    EXPECT_EQ(result(volume, {"--uvw", "0.5,0.5,1.5", "--wrap", "clamp,clamp,border"}), colour);
 }
 
 TEST(Sample, BadInputIsExitCode3) {

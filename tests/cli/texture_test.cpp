@@ -294,6 +294,8 @@ TEST(TextureCommand, WrongUsageIsExitCode2) {
         {{"texture", "info", flat, "-o", out}, "texture info takes no -o"},
         {{"texture", "info", flat, "--face", "1"}, "texture info takes no --layer, --face or --slice"},
         {{"texture", "decode", flat}, "-o IMAGE is missing"},
+        {{"texture", "info", flat, "--mip-storage", "float"}, "texture info takes no --mip-storage or --bc-rounding"},
+        {{"texture", "info", flat, "--bc-rounding", "amd"}, "texture info takes no --mip-storage or --bc-rounding"},
         {{"texture", "decode", flat, "-o", out, "--json"}, "texture decode takes no --json"},
         {{"texture", "mips", flat, "-o", out, "--level", "1"}, "texture mips takes no --level"},
         {{"texture", "decode", flat, "-o", folder / "o.pgn"}, "'.png'"},

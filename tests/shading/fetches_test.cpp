@@ -1,22 +1,17 @@
 // What a frame's lookups ask for, under every fetch model.
-#include "shading/fetch_account.h"
 #include "shading/render.h"
-#include "texunit/fetch_trace.h"
 
-#include "tests/shading/executor_kinds.h"
-#include "tests/shading/scene_parts.h"
+#include "tests/shading/fetch_scenes.h"
 
 #include <gtest/gtest.h>
-#include <zstd.h>
 
 #include <cmath>
-#include <cstring>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <set>
-#include <stdexcept>
-#include <thread>
-#include <tuple>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace rawtexel::shading {
@@ -54,56 +49,6 @@ class Relooker final : public LookupListener {
     bool let_through_ = false;
 };
 
-class FetchesTest : public testing::Test {
-  protected:
-    RenderResult render_with(const RenderOptions& options, ExecutorKind kind = ExecutorKind::Threads, int threads = 1) const {
-        const std::unique_ptr<Executor> executor = make_executor(kind, threads);
-        return render(scene_, lighting_, options, *executor);
-    }
-    static RenderOptions busy_options() {
-        RenderOptions options;
-        options.width = 165;
-        options.height = 101;
-        options.camera = busy_camera();
-        options.spp = 2;
-        options.fetches.count = true;
-        return options;
-    }
-
-    std::unique_ptr<Executor> one_ = make_executor(ExecutorKind::Threads, 1);
-    Scene scene_ = make_busy_scene();
-    Lighting lighting_ = busy_lighting(scene_, *one_);
-};
-
-/// A stack of full-frame quads, the first the nearest, of 64x64 pixels.
-class StackTest : public testing::Test {
-  protected:
-    StackTest() {
-        options_.width = options_.height = 64;
-        options_.camera = square_camera();
-        options_.fetches.count = true;
-    }
-    /// Adds a quad at height z with a texture whose alpha is everywhere `alpha`.
-    void add(float z, AlphaMode mode, float alpha = 1.0f) {
-        scene_.textures.push_back(make_texture(8, 8, [alpha](int, int) { return glm::vec4(0.5f, 0.5f, 0.5f, alpha); }));
-        Material material = unlit(glm::vec4(1.0f), mode);
-        material.maps[kBaseColor].texture = int(scene_.textures.size()) - 1;
-        add_object(scene_, make_quad({-1, -1, z}, {2, 0, 0}, {0, 2, 0}), material);
-    }
-    /// Lookups per pixel of every quad.
-    std::vector<double> lookups(FetchModel model) {
-        options_.fetches.model = model;
-        const RenderResult result = render(scene_, Lighting{}, options_, *executor_);
-        std::vector<double> per_pixel;
-        for (const texunit::FetchCounts& counts : result.fetches->counts) per_pixel.push_back(double(counts.lookups) / (64 * 64));
-        return per_pixel;
-    }
-
-    std::unique_ptr<Executor> executor_ = make_executor(ExecutorKind::Threads, 1);
-    Scene scene_;
-    RenderOptions options_;
-};
-
 using PerQuad = std::vector<double>;
 
 TEST_F(StackTest, VisibleAsksForWhatIsSeenAndWhatLetsItThrough) {
@@ -138,23 +83,101 @@ TEST_F(StackTest, BlendedLayersAskUpToTheOneThatIsDrawn) {
     EXPECT_NEAR(found[2], 24.0, 64 * 5 * std::sqrt(0.375 * 0.625 / (64.0 * 64 * 64)));
 }
 
+/// Where base colours are looked up: u and v by pixel.
+class BaseColorPlaces final : public LookupListener {
+  public:
+    void begin_tile(int, int) override {}
+    void begin_wave(const ListenedWave& wave) override { wave_ = wave; }
+    void fragments(const ListenedFragments&) override {}
+    void lookup(const ListenedLookup& lookup) override {
+        for (int lane = 0; lane < texunit::kWaveLanes; ++lane) {
+            if (lookup.slot != kBaseColor || (lookup.lanes >> lane & 1) == 0) continue;
+            places[{wave_.x + lane % texunit::kWaveWidth, wave_.y + lane / texunit::kWaveWidth}] = {lookup.at->u[lane], lookup.at->v[lane]};
+        }
+    }
+    void drawn(const ListenedDraw&) override {}
+    void end_wave() override {}
+    void end_sample() override {}
+    void end_tile() override {}
+    std::map<std::pair<int, int>, glm::vec2> places;
+
+  private:
+    ListenedWave wave_;
+};
+
 TEST_F(StackTest, QuadsAskForTheirHelpersToo) {
-    // One triangle over half of the frame: its diagonal cuts quads in two.
-    Mesh half = make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
-    half.indices.resize(3);
     scene_.textures.push_back(make_noise_texture(64, 64, 1));
     Material material = unlit(glm::vec4(1.0f));
     material.maps[kBaseColor].texture = 0;
-    add_object(scene_, half, material);
+    const Mesh whole = make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
+    const auto places_of = [&](const Scene& scene) {
+        BaseColorPlaces listener;
+        RenderOptions options = options_;
+        options.fetches = {};
+        options.fetches.model = options_.fetches.model;
+        options.listener = &listener;
+        render(scene, Lighting{}, options, *executor_);
+        return listener.places;
+    };
+    Scene full = scene_;
+    add_object(full, whole, material);
     options_.fetches.model = FetchModel::Forward;
-    const RenderResult forward = render(scene_, Lighting{}, options_, *executor_);
-    options_.fetches.model = FetchModel::Quad;
-    const RenderResult quad = render(scene_, Lighting{}, options_, *executor_);
-    EXPECT_EQ(forward.fetches->counts[0].lookups, forward.samples_shaded);
-    const uint64_t covered = forward.samples_shaded;
-    // 32 quads lie on the diagonal, each with one or three lanes of four; the top-left rule gives the centres on it to one side.
-    const uint64_t expected = covered % 64 == 32 ? covered + 32 * (covered < 2048 ? 3 : 1) : 0;
-    EXPECT_EQ(quad.fetches->counts[0].lookups, expected) << covered;
+    const auto everywhere = places_of(full);
+    EXPECT_EQ(everywhere.size(), size_t{64 * 64});
+    // One triangle over half of the frame, then the other: their diagonal cuts quads in two.
+    std::set<bool> cuts;
+    for (const size_t first : {size_t{0}, size_t{3}}) {
+        Mesh half = whole;
+        half.indices.assign(whole.indices.begin() + ptrdiff_t(first), whole.indices.begin() + ptrdiff_t(first) + 3);
+        Scene scene = scene_;
+        add_object(scene, half, material);
+        options_.fetches.model = FetchModel::Forward;
+        const RenderResult forward = render(scene, Lighting{}, options_, *executor_);
+        options_.fetches.model = FetchModel::Quad;
+        const RenderResult quad = render(scene, Lighting{}, options_, *executor_);
+        EXPECT_EQ(forward.fetches->counts[0].lookups, forward.samples_shaded);
+        const uint64_t covered = forward.samples_shaded;
+        // 32 quads lie on the diagonal, each with one or three lanes of four; the top-left rule gives the centres on it to one side.
+        const uint64_t expected = covered % 64 == 32 ? covered + 32 * (covered < 2048 ? 3 : 1) : 0;
+        EXPECT_EQ(quad.fetches->counts[0].lookups, expected) << covered;
+        cuts.insert(covered < 2048);
+        // Beyond the edge coordinates go on as the plane does.
+        const auto places = places_of(scene);
+        EXPECT_EQ(places.size(), expected);
+        for (const auto& [pixel, uv] : places) {
+            const glm::vec2 plane = everywhere.at(pixel);
+            EXPECT_NEAR(uv.x, plane.x, 1e-5) << pixel.first << ',' << pixel.second;
+            EXPECT_NEAR(uv.y, plane.y, 1e-5) << pixel.first << ',' << pixel.second;
+        }
+    }
+    EXPECT_EQ(cuts.size(), 2u) << "one lane of four, and three";
+}
+
+TEST_F(StackTest, WhatIsDiscardedAsksForItsBaseColourAlone) {
+    for (const float alpha : {0.0f, 1.0f}) {
+        Scene scene;
+        scene.textures.push_back(make_texture(8, 8, [alpha](int, int) { return glm::vec4(0.5f, 0.5f, 0.5f, alpha); }));
+        scene.textures.push_back(make_noise_texture(8, 8, 2));
+        Material material;
+        material.alpha_mode = AlphaMode::Mask;
+        material.maps[kBaseColor].texture = 0;
+        material.maps[kMetallicRoughness].texture = 1;
+        add_object(scene, make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), material);
+        for (const FetchModel model : {FetchModel::Visible, FetchModel::Forward}) {
+            options_.fetches.model = model;
+            const RenderResult result = render(scene, Lighting{}, options_, *executor_);
+            EXPECT_EQ(result.fetches->counts[0].lookups, 64u * 64) << to_string(model);
+            EXPECT_EQ(result.fetches->counts[1].lookups, alpha > 0 ? 64u * 64 : 0u) << to_string(model);
+        }
+    }
+}
+
+TEST_F(StackTest, WhatIsDiscardedBehindTheSurfaceIsNotVisible) {
+    // The first in the scene is looked at first, and hidden by what comes after it.
+    add(0.5f, AlphaMode::Mask, 0.0f);
+    add(0.9f, AlphaMode::Mask, 1.0f);
+    EXPECT_EQ(lookups(FetchModel::Visible), (PerQuad{0, 1}));
+    EXPECT_EQ(lookups(FetchModel::Forward), (PerQuad{1, 1}));
 }
 
 TEST_F(StackTest, CountsOfAFullFrameQuadAreAnalytic) {
@@ -351,144 +374,6 @@ TEST_F(FetchesTest, OrderedAccountsDoNotDependOnThreadsOrTileSize) {
             EXPECT_EQ(other.radiance.values, expected.radiance.values);
         }
     }
-}
-
-std::vector<std::byte> decompress(const std::vector<std::byte>& compressed) {
-    std::vector<std::byte> plain(size_t{256} << 20);
-    const size_t size = ZSTD_decompress(plain.data(), plain.size(), compressed.data(), compressed.size());
-    EXPECT_FALSE(ZSTD_isError(size)) << ZSTD_getErrorName(size);
-    plain.resize(ZSTD_isError(size) ? 0 : size);
-    return plain;
-}
-
-/// Tile, sample, wave by the Morton code of its place in the tile, lane.
-using CanonicalPlace = std::tuple<int, uint32_t, int, int>;
-CanonicalPlace canonical_place(const texunit::TraceRecord& record, int tiles_x) {
-    const int x = record.pixel_x % 64, y = record.pixel_y % 64;
-    int code = 0;
-    for (int bit = 0; bit < 4; ++bit) code |= (x / 8 >> bit & 1) << (2 * bit) | (y / 4 >> bit & 1) << (2 * bit + 1);
-    // The column has three bits, the row four: the row's last stands where the column's would.
-    if (code >= 128) code -= 64;
-    return {record.pixel_y / 64 * tiles_x + record.pixel_x / 64, record.sample, code, y % 4 * 8 + x % 8};
-}
-
-TEST_F(FetchesTest, AreTracedOneByOneInCanonicalOrder) {
-    RenderOptions options = busy_options();
-    std::vector<std::byte> first;
-    for (const int threads : {1, 3}) {
-        std::vector<std::byte> file;
-        texunit::FetchTraceWriter writer([&](std::span<const std::byte> bytes) { file.insert(file.end(), bytes.begin(), bytes.end()); });
-        options.fetches.trace = &writer;
-        const RenderResult result = render_with(options, ExecutorKind::Threads, threads);
-        writer.end();
-        if (threads > 1) {
-            EXPECT_TRUE(file == first);
-            continue;
-        }
-        first = file;
-        const std::vector<std::byte> plain = decompress(file);
-        const std::byte* at = plain.data();
-        ASSERT_EQ(std::memcmp(at, texunit::kTraceMagic.data(), 8), 0);
-        at += 8;
-        const auto number = [&] {
-            uint32_t value;
-            std::memcpy(&value, at, 4);
-            at += 4;
-            return value;
-        };
-        const uint32_t names = number();
-        ASSERT_EQ(names, result.fetches->textures.size());
-        for (uint32_t i = 0; i < names; ++i) {
-            const uint32_t size = number();
-            EXPECT_EQ(std::string(reinterpret_cast<const char*>(at), size), result.fetches->textures[i]->name());
-            at += size;
-        }
-        const auto bytes = size_t(plain.data() + plain.size() - at);
-        ASSERT_EQ(bytes, sizeof(texunit::TraceRecord) * result.fetches->total().texels_requested);
-        std::set<uint64_t> lines;
-        CanonicalPlace before{};
-        for (; at < plain.data() + plain.size(); at += sizeof(texunit::TraceRecord)) {
-            texunit::TraceRecord record;
-            std::memcpy(&record, at, sizeof(record));
-            const CanonicalPlace place = canonical_place(record, 3);
-            ASSERT_LE(before, place) << "pixel " << record.pixel_x << ',' << record.pixel_y;
-            before = place;
-            ASSERT_LT(record.x, result.fetches->textures[record.texture]->levels().width[record.level]);
-            ASSERT_LT(record.y, result.fetches->textures[record.texture]->levels().height[record.level]);
-            lines.insert(record.decoded / 64);
-        }
-        texunit::TouchedLines touched;
-        for (const auto& levels : result.fetches->measure())
-            for (const texunit::TouchedLines& level : levels) touched += level;
-        EXPECT_EQ(lines.size(), touched.decoded.of_64());
-    }
-}
-
-TEST(FetchSequencer, HandsOnInTheOrderOfTilesWhoeverComesFirst) {
-    constexpr int kTiles = 40, kStreams = 5;
-    std::vector<std::pair<int64_t, uint32_t>> seen;
-    FetchSequencer sequencer([&](int64_t tile, const texunit::FetchStream& stream) { seen.emplace_back(tile, stream.pixels[0].sample); });
-    const auto work = [&] {
-        for (int64_t tile; (tile = sequencer.next_tile()) < kTiles;) {
-            for (uint32_t n = 0; n < kStreams; ++n) {
-                texunit::FetchStream stream;
-                // Some tiles hand in more than may wait.
-                stream.pixels.assign(tile % 7 == 3 ? size_t{3} << 20 : 1, {0, 0, n, 0});
-                if (tile % 3 == 0) std::this_thread::yield();
-                sequencer.hand_in(tile, stream);
-                EXPECT_TRUE(stream.empty());
-            }
-            sequencer.finish(tile);
-        }
-    };
-    std::vector<std::thread> threads;
-    for (int i = 0; i < 4; ++i) threads.emplace_back(work);
-    for (std::thread& thread : threads) thread.join();
-    ASSERT_EQ(seen.size(), size_t(kTiles * kStreams));
-    for (size_t i = 0; i < seen.size(); ++i) {
-        EXPECT_EQ(seen[i].first, int64_t(i) / kStreams);
-        EXPECT_EQ(seen[i].second, i % kStreams);
-    }
-}
-
-TEST(FetchSequencer, PassesOnWhatTheConsumerThrowsWhileOthersWait) {
-    // A full disk, say, at the last stream of the tile that is due.
-    FetchSequencer sequencer([](int64_t tile, const texunit::FetchStream&) {
-        if (tile == 1) throw std::runtime_error("full");
-    });
-    const int64_t due = sequencer.next_tile(), next = sequencer.next_tile(), last = sequencer.next_tile();
-    texunit::FetchStream stream;
-    stream.pixels.assign(1, {});
-    sequencer.hand_in(next, stream);
-    std::thread waiter([&] {
-        texunit::FetchStream large;
-        large.pixels.assign(size_t{32} << 20, {});
-        sequencer.hand_in(last, large);
-    });
-    try {
-        sequencer.finish(due);
-        ADD_FAILURE() << "nothing thrown";
-    } catch (const std::runtime_error&) {
-        sequencer.abandon();
-    }
-    waiter.join();
-}
-
-TEST(FetchSequencer, LetsEveryoneGoWhenATileFails) {
-    FetchSequencer sequencer([](int64_t, const texunit::FetchStream&) {});
-    const int64_t failing = sequencer.next_tile(), waiting = sequencer.next_tile();
-    std::thread waiter([&] {
-        for (int n = 0; n < 3; ++n) {
-            texunit::FetchStream stream;
-            stream.pixels.assign(size_t{6} << 20, {});
-            sequencer.hand_in(waiting, stream);
-        }
-        sequencer.finish(waiting);
-    });
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    EXPECT_EQ(failing, 0);
-    sequencer.abandon();
-    waiter.join();
 }
 
 }  // namespace

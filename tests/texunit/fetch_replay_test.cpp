@@ -2,16 +2,21 @@
 #include "texunit/fetch_replay.h"
 
 #include "texunit/fetch_stream.h"
+#include "texunit/fetch_trace.h"
 #include "texunit/sample.h"
 #include "texunit/touched_lines.h"
 
 #include "tests/texunit/hashed_source.h"
 
 #include <gtest/gtest.h>
+#include <zstd.h>
 
+#include <array>
+#include <cstring>
 #include <memory>
 #include <random>
 #include <set>
+#include <tuple>
 #include <vector>
 
 namespace rawtexel::texunit {
@@ -63,6 +68,69 @@ TEST_F(FetchReplays, FindTexelsWhereTheyAreAndNoTwoUnitsAtOnePlace) {
     EXPECT_EQ(decoded.size(), texels);
     EXPECT_EQ(stored.size(), units);
     EXPECT_LT(*decoded.rbegin(), addresses.decoded_bytes());
+}
+
+/// Layers and depth slices, of every level, have places of their own, in memory and in traces.
+TEST(SlicedFetches, FindTexelsOfEverySliceWhereTheyAre) {
+    const std::array shapes = {Shape{.width = 12, .height = 5, .layers = 3, .levels = 3},
+                               Shape{.width = 8, .height = 8, .depth = 8, .levels = 4},
+                               Shape{.width = 4, .height = 4, .layers = 12, .levels = 2, .cube = true}};
+    std::vector<std::unique_ptr<Texture>> owned;
+    std::vector<const Texture*> textures;
+    for (const Shape& shape : shapes) {
+        for (const Format format : {Format::RGBA8Unorm, Format::BC7Unorm}) {
+            owned.push_back(std::make_unique<Texture>("hashed", std::make_unique<HashedSource>(format, shape)));
+            textures.push_back(owned.back().get());
+        }
+    }
+    const TexelAddresses addresses(textures);
+    FetchStream stream;
+    std::set<std::tuple<uint32_t, int, int, int, int>> units;
+    std::set<uint64_t> decoded, stored;
+    std::vector<int> slices;
+    for (uint32_t t = 0; t < textures.size(); ++t) {
+        const Shape& shape = textures[t]->shape();
+        const int unit = info(textures[t]->format()).block_extent;
+        for (int level = 0; level < shape.levels; ++level) {
+            for (int slice = 0; slice < slice_count(shape, level); ++slice) {
+                for (int y = 0; y < level_extent(shape.height, level); ++y) {
+                    for (int x = 0; x < level_extent(shape.width, level); ++x) {
+                        const TexelFetch one(t, level,
+                                             texel_index(textures[t]->levels(), textures[t]->texel_layout().storage, level, slice, x, y));
+                        ASSERT_EQ(addresses.position(one).slice, slice);
+                        EXPECT_TRUE(decoded.insert(addresses.decoded(one)).second);
+                        stored.insert(addresses.stored(one));
+                        units.insert({t, level, slice, x / unit, y / unit});
+                        stream.fetches.push_back(one);
+                        slices.push_back(slice);
+                    }
+                }
+            }
+        }
+    }
+    EXPECT_EQ(stored.size(), units.size());
+
+    stream.pixels.push_back({7, 9, 0, uint32_t(stream.fetches.size())});
+    std::vector<std::byte> file;
+    FetchTraceWriter writer([&](std::span<const std::byte> bytes) { file.insert(file.end(), bytes.begin(), bytes.end()); });
+    writer.begin(textures);
+    writer.add(stream, addresses);
+    writer.end();
+    std::vector<std::byte> plain(file.size() + (size_t{1} << 20));
+    const size_t size = ZSTD_decompress(plain.data(), plain.size(), file.data(), file.size());
+    ASSERT_FALSE(ZSTD_isError(size));
+    ASSERT_GE(size, stream.fetches.size() * sizeof(TraceRecord));
+    const std::byte* at = plain.data() + size - stream.fetches.size() * sizeof(TraceRecord);
+    for (size_t i = 0; i < slices.size(); ++i, at += sizeof(TraceRecord)) {
+        TraceRecord record;
+        std::memcpy(&record, at, sizeof(record));
+        ASSERT_EQ(record.z, slices[i]);
+        ASSERT_EQ(record.stored, addresses.stored(stream.fetches[i]));
+        ASSERT_EQ(record.decoded, addresses.decoded(stream.fetches[i]));
+        const Format format = textures[record.texture]->format();
+        ASSERT_EQ(record.bytes_stored, info(format).bytes_per_block);
+        ASSERT_EQ(record.bytes_decoded, bytes_per_texel(layout(format).storage));
+    }
 }
 
 TEST_F(FetchReplays, ChargeEveryLineAndBlockOnceToItsFirstToucher) {

@@ -3,7 +3,7 @@
 #include "texunit/sample.h"
 
 #include "tests/texunit/hashed_source.h"
-#include "tests/texunit/judged_lookup.h"
+#include "tests/texunit/legal_lookups.h"
 #include "tests/texunit/lookup_draw.h"
 
 #include <gtest/gtest.h>
@@ -14,40 +14,7 @@
 namespace rawtexel::texunit {
 namespace {
 
-using Colour = std::array<double, 4>;
-
-JudgedTexture judged(Texture& texture) {
-    const Shape& shape = texture.shape();
-    return {shape.width, shape.height, shape.levels, [&texture](int level, int x, int y) {
-                const std::array<float, 4> value = texture.texel(level, 0, x, y);
-                return Colour{value[0], value[1], value[2], value[3]};
-            }};
-}
-
-JudgedLookup judged(const reference::Lookup& at) { return {at.u, at.v, at.dudx, at.dvdx, at.dudy, at.dvdy}; }
-
-Colour colour_of(const WaveColor& colour, int i) {
-    return {colour.channel[0][i], colour.channel[1][i], colour.channel[2][i], colour.channel[3][i]};
-}
-
-/// The precision we promise ourselves: nothing but the 8 fractional bits, and what float arithmetic and 8-bit texels need.
-constexpr LegalPrecision kOurs{.coordinate_bits = 23, .derivative_bits = 20, .approximate_scale = false, .colour_threshold = 4e-6};
-
-/// Lookups at ordinary places: half of them on the texture, others a few repeats away, from magnified to the coarsest level.
-reference::Lookup ordinary_lookup(LookupDraw& draw, int width, int height, int levels) {
-    const float reach = draw.below(2) == 0 ? 0.5f : 2.0f;
-    const float scale = std::exp2(draw.uniform(-1, float(levels)));
-    const auto change = [&](int extent) { return draw.uniform(-1, 1) * scale / float(extent); };
-    return {0.5f + draw.uniform(-reach, reach),
-            0.5f + draw.uniform(-reach, reach),
-            change(width),
-            change(height),
-            change(width),
-            change(height)};
-}
-
-/// Kernels whose weights and slopes are moderate, and whose taps are few.
-bool is_ordinary(const Kernel& kernel) { return axis_taps(kernel) <= 6 && std::abs(kernel.b) < 5 && kernel.b != kLeastSigma; }
+using Colour = JudgedColour;
 
 TEST(LegalInterval, HoldsOurGpuPrecisionAtEightBits) {
     constexpr std::pair<int, int> kExtents[] = {{1, 1}, {3, 70}, {64, 64}, {1000, 300}, {8192, 4096}};
@@ -179,8 +146,8 @@ TEST_F(Mistakes, OfAFewStepsAreRefused) {
 
 TEST_F(Mistakes, AreMeasuredByTheClosestLegalColour) {
     const JudgedTexture reference = judged(texture_);
-    const JudgedLookup at{.u = 10.5 / 64, .v = 20.5 / 64};
-    const Colour texel = reference.texel(0, 10, 20);
+    const JudgedLookup at{.at = {10.5 / 64, 20.5 / 64, 0}};
+    const Colour texel = reference.texel(0, 0, 10, 20);
     Colour wrong = texel;
     wrong[1] += 0.01;
     LegalPrecision precision = kOurs;
