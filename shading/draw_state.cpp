@@ -253,6 +253,8 @@ std::string refusal(const Scene& scene, const LookupOverrides& overrides) {
             return material + "baseline " + std::string(to_string(filtering.baseline)) + " knows no planes and layers";
         for (const MapState& map : state.maps) {
             if (!map.texture) continue;
+            if (map.sampler.ellipse > 0 && map.sampler.estimator == texunit::Estimator::AbsWeight)
+                return material + "abs-weight: an ellipse has no negative weights (allowed with --ewa: all, reservoir, jitter)";
             for (const texunit::Kernel& kernel : {map.sampler.magnify, map.sampler.minify}) {
                 const std::string_view reason = texunit::refusal(map.sampler.estimator, kernel);
                 if (!reason.empty())
