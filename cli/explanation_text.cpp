@@ -126,6 +126,12 @@ std::string describe(const ExplainedSurface& surface) {
     if (surface.verdict) details += describe(*surface.verdict, surface.triangle.material->alpha_mode) + "\n";
     details += "Barycentrics: " + print_vector(surface.barycentrics) + "\n";
     details += "Position: " + print_vector(surface.position) + " m, " + print_number(surface.distance) + " m along the view axis\n";
+    if (!surface.numbers.empty()) {
+        std::vector<std::string> numbers;
+        for (const ExplainedNumber& each : surface.numbers)
+            numbers.push_back(std::string(each.dimension) + " " + print_number(each.number));
+        details += "Random numbers: " + join(numbers, ", ") + "\n";
+    }
     for (const ExplainedLookup& lookup : surface.lookups) details += describe(lookup);
     for (const ExplainedSurface& branch : surface.branches) details += describe_branch(branch);
     if (surface.vertex_color) {

@@ -9,6 +9,7 @@ using shading::FilteringOptions;
 using shading::FilterOrder;
 using shading::NumberSharing;
 using shading::ShadowTaps;
+using shading::TextureJitter;
 using texunit::Estimator;
 
 void declare_filtering_options(CommandLine& line, FilteringOptions& filtering) {
@@ -47,6 +48,14 @@ void declare_filtering_options(CommandLine& line, FilteringOptions& filtering) {
                 [&](const std::string& text) {
                     filtering.shadow_taps = parse_choice("--shadow-taps", text, {ShadowTaps::All, ShadowTaps::One});
                 });
+    line.option(
+        "--texture-jitter", "none|perspective|affine",
+        "textures are looked up where the sample lies (the default), or at a point of the pixel filter of their own, in perspective or "
+        "by a step along the derivatives: filters minified textures with --mip none",
+        [&](const std::string& text) {
+            filtering.texture_jitter =
+                parse_choice("--texture-jitter", text, {TextureJitter::None, TextureJitter::Perspective, TextureJitter::Affine});
+        });
     line.option("--signed-numbers", "independent|common",
                 "numbers of the draws from positive and from negative weights: their own (the default), or the same",
                 [&](const std::string& text) {

@@ -9,7 +9,7 @@
 
 namespace rawtexel::cli {
 
-/// --estimator, --taps, --order, --random, --noise, --blend, --shadow-taps and --signed-numbers.
+/// --estimator, --taps, --order, --random, --noise, --blend, --shadow-taps, --texture-jitter and --signed-numbers.
 void declare_filtering_options(CommandLine& line, shading::FilteringOptions& filtering);
 
 /// Refuses options that contradict each other: draws asked for where none are made, and an order that is none. `filter`: the kernel asked

@@ -91,6 +91,19 @@ void check_lookup(const LookupOptions& lookup) {
         if (given) throw UsageError(std::string(option) + ": --ewa has kernel, level and axes of its own, and rounds no fractions");
 }
 
+void check_texture_jitter(const LookupOptions& lookup) {
+    if (lookup.filtering.texture_jitter == shading::TextureJitter::None) return;
+    const std::string option = "--texture-jitter " + std::string(to_string(lookup.filtering.texture_jitter));
+    if (lookup.mip != MipMode::None) throw UsageError(option + " filters minified textures by itself (allowed: with --mip none)");
+    if (!(lookup.footprint == shading::FootprintOptions{}))
+        throw UsageError(option +
+                         " looks up points without footprints (not allowed with --aniso, --ewa, --lod-*, --hybrid-bias, "
+                         "--derivatives and --footprint)");
+    if (lookup.filtering.baseline != shading::Baseline::None)
+        throw UsageError(option + ": --baseline " + std::string(to_string(lookup.filtering.baseline)) +
+                         " says itself how maps are looked up");
+}
+
 std::vector<std::pair<std::string, std::string>> print_choices(const LookupOptions& lookup) {
     const shading::FootprintOptions& footprint = lookup.footprint;
     return {{"filter", print_filter(lookup.filter)},
@@ -108,6 +121,7 @@ std::vector<std::pair<std::string, std::string>> print_choices(const LookupOptio
             {"random", std::string(to_string(lookup.filtering.sharing))},
             {"blend", std::string(to_string(lookup.filtering.effective_blend()))},
             {"shadow-taps", std::string(to_string(lookup.filtering.shadow_taps))},
+            {"texture-jitter", std::string(to_string(lookup.filtering.texture_jitter))},
             {"noise", std::string(to_string(lookup.filtering.noise))},
             {"signed-numbers", lookup.filtering.common_numbers ? "common" : "independent"},
             {"baseline", std::string(to_string(lookup.filtering.baseline))},

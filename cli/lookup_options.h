@@ -41,6 +41,9 @@ std::string print_mip(const std::optional<texunit::MipMode>& mip);
 texunit::MipStorage parse_mip_storage(std::string_view text);  // source float
 std::string print(texunit::MipStorage storage);
 
+/// Throws UsageError for --texture-jitter beside what else would filter minified textures.
+void check_texture_jitter(const LookupOptions& lookup);
+
 /// Every choice by its option's name without the dashes, spelled as the command line takes it: for metadata and statistics.
 std::vector<std::pair<std::string, std::string>> print_choices(const LookupOptions& lookup);
 

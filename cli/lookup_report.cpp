@@ -41,6 +41,47 @@ Json tap_json(const Shape& shape, const TracedTap& tap) {
     return json;
 }
 
+using NamedNumber = std::pair<std::string, float>;
+std::vector<NamedNumber> named(const texunit::RoleNumbers& numbers) {
+    std::vector<NamedNumber> all{{"x", numbers.x}, {"y", numbers.y}};
+    const auto add = [&](const char* role, const std::optional<float>& number) {
+        if (number) all.emplace_back(role, *number);
+    };
+    add("z", numbers.z);
+    add("level", numbers.level);
+    add("probe", numbers.probe);
+    add("sign", numbers.sign);
+    return all;
+}
+
+Json drawn_tap_json(const Shape& shape, const texunit::DrawnTap& drawn) {
+    Json json = tap_json(shape, drawn.tap);
+    json["draw"] = drawn.draw;
+    for (const auto& [role, number] : named(drawn.numbers)) json["random"][role] = number;
+    return json;
+}
+
+std::string describe_numbers(const texunit::DrawTrace& drawn) {
+    std::string text;
+    for (const texunit::DrawnTap& tap : drawn.taps) {
+        text += "Draw " + std::to_string(tap.draw) + (tap.tap.weight < 0 ? ", negative weight" : "") + ": random numbers";
+        std::string separator = " ";
+        for (const auto& [role, number] : named(tap.numbers)) text += std::exchange(separator, ", ") + role + " " + print_number(number);
+        text += '\n';
+    }
+    return text;
+}
+
+/// The lookup as it is told: where texels were drawn, with those for taps.
+LookupTrace told(const ReportedLookup& lookup) {
+    LookupTrace trace = lookup.trace;
+    if (lookup.drawn == nullptr) return trace;
+    trace.taps.clear();
+    for (const texunit::DrawnTap& drawn : lookup.drawn->taps) trace.taps.push_back(drawn.tap);
+    trace.result = lookup.drawn->result;
+    return trace;
+}
+
 std::string right_aligned(const std::string& text, size_t width) { return std::string(width - std::min(width, text.size()), ' ') + text; }
 
 constexpr size_t kIndexWidth = 7, kFigureWidth = 15;  // characters
@@ -69,11 +110,12 @@ std::string describe_footprint(const SamplerState& sampler) {
     return sampler.probe_variance > 0 ? text + " of variance " + print_number(sampler.probe_variance) + " pixels^2" : text;
 }
 
-std::string describe_sampler(const Shape& shape, const SamplerState& sampler) {
+std::string describe_sampler(const Shape& shape, const SamplerState& sampler, bool drawn) {
     const bool exact = sampler.precision == texunit::Precision::Exact;
     const bool one_kernel = sampler.magnify == sampler.minify;
     return "Sampler: " + to_string(sampler.minify) + (one_kernel ? "" : " (magnified " + to_string(sampler.magnify) + ")") + ", mip " +
            std::string(to_string(sampler.mip)) + ", " + describe_wraps(shape, sampler) + describe_footprint(sampler) +
+           (drawn ? ", drawn by " + std::string(to_string(sampler.estimator)) : "") +
            "\nPrecision: " + std::string(to_string(sampler.precision)) +
            (exact ? " (fractions of texels and levels are not quantised)\n" : " (fractions of texels and levels in steps of 1/256)\n");
 }
@@ -148,21 +190,28 @@ std::string tap_table(const Shape& shape, const LookupTrace& trace) {
 
 Json lookup_object(const ReportedLookup& lookup) {
     const LookupTrace& trace = lookup.trace;
+    const Shape& shape = lookup.texture.shape();
+    Json json{{"lod", trace.lod}, {"anisotropy", trace.anisotropy}, {"precision", to_string(lookup.sampler.precision)}};
     Json taps = Json::array();
-    for (const TracedTap& tap : trace.taps) taps.push_back(tap_json(lookup.texture.shape(), tap));
-    return {{"lod", trace.lod},
-            {"anisotropy", trace.anisotropy},
-            {"precision", to_string(lookup.sampler.precision)},
-            {"taps", std::move(taps)},
-            {"result", trace.result}};
+    if (lookup.drawn != nullptr) {
+        json["estimator"] = to_string(lookup.sampler.estimator);
+        for (const texunit::DrawnTap& drawn : lookup.drawn->taps) taps.push_back(drawn_tap_json(shape, drawn));
+    } else {
+        for (const TracedTap& tap : trace.taps) taps.push_back(tap_json(shape, tap));
+    }
+    json["taps"] = std::move(taps);
+    json["result"] = lookup.drawn != nullptr ? lookup.drawn->result : trace.result;
+    return json;
 }
 
 std::string lookup_json(const ReportedLookup& lookup) { return lookup_object(lookup).dump() + "\n"; }
 
 std::string lookup_table(const ReportedLookup& lookup) {
     const Shape& shape = lookup.texture.shape();
-    return describe_texture(lookup.texture) + describe_sampler(shape, lookup.sampler) +
-           describe_place(lookup.place, coordinate_kind(shape)) + describe_levels(shape, lookup.trace) + tap_table(shape, lookup.trace);
+    const LookupTrace trace = told(lookup);
+    return describe_texture(lookup.texture) + describe_sampler(shape, lookup.sampler, lookup.drawn != nullptr) +
+           describe_place(lookup.place, coordinate_kind(shape)) + describe_levels(shape, trace) + tap_table(shape, trace) +
+           (lookup.drawn != nullptr ? describe_numbers(*lookup.drawn) : "");
 }
 
 }  // namespace rawtexel::cli

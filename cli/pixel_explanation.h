@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rawtexel::cli {
@@ -85,6 +86,12 @@ struct ExplainedTap {
     glm::vec3 radiance{0.0f};
 };
 
+/// A number that something was drawn with at a surface, other than its taps.
+struct ExplainedNumber {
+    std::string_view dimension;  ///< the role in its address: "plane", "layer", "light", …
+    float number = 0;
+};
+
 /// What is seen. Where raw texels are shaded `taps` tell what its surface is made of and its radiance: the sum of weight*radiance over taps
 /// of positive weight, divided by the part of those weights that covers, plus that over the others (shading/tap_sum-inl.h).
 struct ExplainedSurface {
@@ -96,6 +103,7 @@ struct ExplainedSurface {
     glm::vec3 normal{0.0f}, geometric_normal{0.0f};
     std::optional<glm::vec4> vertex_color;
     glm::vec3 base_color{0.0f};
+    std::vector<ExplainedNumber> numbers;
     std::vector<ExplainedLookup> lookups;  ///< in the order of the maps
     std::vector<ExplainedTexel> averaged;  ///< drawn for some of them, averaged before shading
     std::vector<ExplainedTap> taps;

@@ -1,8 +1,10 @@
 #include "cli/pixel_watcher.h"
 
+#include "texunit/noise.h"
 #include "texunit/random.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace rawtexel::cli {
@@ -75,6 +77,7 @@ PixelWatcher::PixelWatcher(int x, int y, const shading::RenderOptions& options, 
       pixel_filter_(options.pixel_filter),
       pixel_jitter_(options.pixel_jitter),
       seed_(options.seed),
+      filtering_(options.filtering),
       rays_(make_view_rays(options.camera, options.width, options.height)),
       lighting_(lighting) {}
 
@@ -139,8 +142,43 @@ void PixelWatcher::masked(const shading::MaskedFragments& masked) {
 void PixelWatcher::branched(const shading::BranchedFragments& branched) {
     const int lane = lane_of(branched.block);
     if (lane < 0) return;
+    whole_ = branched.whole;
+    if (!branched.weight) return;
     branches_.emplace_back().weight = (*branched.weight)[lane];
     branch_begins_ = true;
+}
+
+std::vector<ExplainedNumber> PixelWatcher::numbers_of(const shading::MaterialState& material, const shading::WatchedBlock& block,
+                                                      uint32_t surface) const {
+    using texunit::Dimension;
+    const int lane = (y_ - block.y) * texunit::kWaveWidth + (x_ - block.x);
+    texunit::RandomAddress address{.x = uint32_t(block.x), .y = uint32_t(block.y), .sample = block.sample, .seed = seed_};
+    std::vector<ExplainedNumber> numbers;
+    const auto add = [&](std::string_view name, Dimension dimension) {
+        texunit::WaveFloat wave;
+        address.dimension = dimension;
+        noise_wave(filtering_.noise, address, wave);
+        numbers.push_back({name, wave[lane]});
+    };
+    const auto add_pair = [&](std::string_view first, std::string_view second, Dimension x, Dimension y) {
+        texunit::WaveFloat a, b;
+        address.dimension = x;
+        noise_pair_wave(filtering_.noise, address, y, a, b);
+        numbers.insert(numbers.end(), {{first, a[lane]}, {second, b[lane]}});
+    };
+    const auto projects = [](const shading::MaterialState* of) { return of->material->triplanar.has_value(); };
+    const std::span layers(material.layers.data(), size_t(material.layer_count));
+    if (material.blend == shading::Blend::Draw && !layers.empty()) add("layer", Dimension::Layer);
+    if (material.blend == shading::Blend::Draw && (projects(&material) || std::ranges::any_of(layers, projects)))
+        add("plane", Dimension::Plane);
+    const bool lit = !(layers.empty() ? material : *layers[0]).material->unlit;
+    if (filtering_.shadow_taps == shading::ShadowTaps::One && lit) add_pair("light", "light y", Dimension::Light, Dimension::LightY);
+    address.surface = surface;
+    if (filtering_.texture_jitter != shading::TextureJitter::None)
+        add_pair("texture x", "texture y", Dimension::TextureX, Dimension::TextureY);
+    address.sample = block.sample * uint32_t(filtering_.taps);
+    if (material.draws_level) add("level", Dimension::Level);
+    return numbers;
 }
 
 void PixelWatcher::add_tap(const shading::ShadedFragments& fragments, int lane, ExplainedSurface& surface) {
@@ -169,6 +207,8 @@ ExplainedSurface PixelWatcher::explain_surface(const shading::ShadedFragments& f
     explained.vertex_color = vertex_color(fragments, lane);
     explained.base_color = at_lane(surface.base_color, lane);
     explained.averaged = std::exchange(averaged_, {});
+    const bool layered = explained.triangle.material->alpha_mode != AlphaMode::Opaque;
+    explained.numbers = numbers_of(whole_ ? *whole_ : *fragments.draw->material, fragments.block, layered ? 1 + explained.triangle.id : 0);
     // Of branches together the first one's light is that of the blend.
     const bool unlit = explained.triangle.material->unlit;
     if (fragments.lit && !unlit) explained.reflection = explain_reflection(lighting_, surface, lane);
@@ -226,6 +266,7 @@ void PixelWatcher::sampled(const shading::SampledPixels& pixels) {
     sample.shift = shift;
     sample.offset = shading::sample_offset(pixel_filter_, pixel_jitter_, sample.sample, shift);
     sample.let_through = take_let_through(pixels.depth[lane]);
+    whole_ = nullptr;
     sample.surface = std::exchange(surface_, std::nullopt);
     sample.radiance = {(*pixels.radiance[0])[lane], (*pixels.radiance[1])[lane], (*pixels.radiance[2])[lane]};
 }

@@ -33,6 +33,9 @@ class PixelWatcher final : public shading::FragmentListener {
     /// The pixel's lane, -1 where it is not among the block's.
     int lane_of(const shading::WatchedBlock& block) const;
     ExplainedSurface explain_surface(const shading::ShadedFragments& fragments, int lane);
+    /// What is drawn at surfaces of `material`, at the number's address that its triangle has.
+    std::vector<ExplainedNumber> numbers_of(const shading::MaterialState& material, const shading::WatchedBlock& block,
+                                            uint32_t surface) const;
     void add_tap(const shading::ShadedFragments& fragments, int lane, ExplainedSurface& surface);
     AlphaVerdict verdict(const shading::JudgedFragments& fragments, int lane) const;
     /// Takes those of judged_ that let through what is seen at `depth`.
@@ -42,13 +45,15 @@ class PixelWatcher final : public shading::FragmentListener {
     shading::PixelFilter pixel_filter_;
     shading::PixelJitter pixel_jitter_;
     uint32_t seed_;
+    shading::FilteringOptions filtering_;
     shading::ViewRays rays_;
     const shading::Lighting& lighting_;
     // Of the sample at hand.
     std::vector<Judged> judged_;
     std::optional<ExplainedSurface> surface_;
-    std::vector<ExplainedSurface> branches_;  ///< of the surface that is told of next
-    bool branch_begins_ = false;              ///< the last of them has nothing but its weight
+    std::vector<ExplainedSurface> branches_;         ///< of the surface that is told of next
+    const shading::MaterialState* whole_ = nullptr;  ///< that what is told of is a plane or layer of
+    bool branch_begins_ = false;                     ///< the last of them has nothing but its weight
     std::optional<ExplainedLookup> mask_;
     std::vector<ExplainedTexel> averaged_, texels_;  ///< of the surface, of the tap that is shaded next
     std::optional<ExplainedNumbers> numbers_;

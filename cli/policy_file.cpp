@@ -17,29 +17,19 @@ using shading::LookupPolicy;
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) { throw scenes::InputError(path + ": " + what); }
 
-template <class T>
-T parse_member(const std::string& path, const std::string& place, const Json& value, std::optional<T> (*parse)(std::string_view)) {
-    if (value.is_string())
-        if (const std::optional<T> parsed = parse(value.get_ref<const std::string&>())) return *parsed;
-    fail(path, place + " is " + scenes::one_line(value.dump(-1, ' ', false, Json::error_handler_t::replace)) +
-                   " (allowed: what the option of this name takes)");
-}
-
 LookupPolicy parse_policy(const std::string& path, const std::string& place, const Json& json) {
     if (!json.is_object()) fail(path, place + " is no object");
     LookupPolicy policy;
     for (const auto& [name, value] : json.items()) {
+        using enum shading::PolicyMemberResult;
         const std::string member = place + "." + scenes::one_line(name);
-        if (name == "order") {
-            policy.order = parse_member(path, member, value, shading::parse_filter_order);
-        } else if (name == "estimator") {
-            policy.estimator = parse_member(path, member, value, texunit::parse_estimator);
-        } else if (name == "filter") {
-            policy.filter = parse_member(path, member, value, texunit::parse_kernel);
-        } else if (name == "mip") {
-            policy.mip = parse_member(path, member, value, texunit::parse_mip_mode);
-        } else {
-            fail(path, member + " is unknown (allowed: order, estimator, filter, mip)");
+        const std::string spelling = value.is_string() ? value.get<std::string>() : std::string();
+        switch (set_policy_member(policy, name, spelling)) {
+            case Set: break;
+            case UnknownName: fail(path, member + " is unknown (allowed: order, estimator, filter, mip)");
+            case UnknownValue:
+                fail(path, member + " is " + scenes::one_line(value.dump(-1, ' ', false, Json::error_handler_t::replace)) +
+                               " (allowed: what the option of this name takes)");
         }
     }
     return policy;

@@ -163,6 +163,7 @@ void preset_reference(RenderRequest& request) {
         {lookup.filtering.draws() || lookup.filtering.order, "--estimator and --order"},
         {lookup.filtering.baseline != shading::Baseline::None, "--baseline"},
         {lookup.filtering.blend || lookup.filtering.shadow_taps != shading::ShadowTaps::All, "--blend and --shadow-taps"},
+        {lookup.filtering.texture_jitter != shading::TextureJitter::None, "--texture-jitter"},
         {lookup.precision != texunit::Precision::Exact, "--precision"},
         {request.samples.spp != 1, "--spp"},
         {request.sequence.is_sequence(), "--frames and --accumulate"},
@@ -286,6 +287,7 @@ void settle(RenderRequest& request) {
     check_baseline(request.lookup);
     check_filtering(request.lookup.filtering, request.lookup.filter);
     check_lookup(request.lookup);
+    check_texture_jitter(request.lookup);
     if (request.light.peer_shading) preset_peer_shading(request);
     if (request.samples.reference) preset_reference(request);
 }

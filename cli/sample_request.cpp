@@ -68,6 +68,68 @@ void declare_sampler(CommandLine& line, SampleRequest& request) {
                 [&](const std::string& text) { request.max_lod = parse_number("--max-lod", text, kLod); });
 }
 
+void declare_draws(CommandLine& line, SampleRequest& request) {
+    using texunit::Estimator;
+    using texunit::Noise;
+    SampleRequest::Draws& draws = request.draws;
+    line.group("Draws");
+    line.option("--estimator", "all|reservoir|jitter|abs-weight",
+                "every tap weighed (the default), or one drawn: from the weights, two where a kernel has negative lobes; by jittering the "
+                "coordinate; by the magnitude of its weight, for comparison",
+                [&](const std::string& text) {
+                    request.lookup.filtering.estimator =
+                        parse_choice("--estimator", text, {Estimator::All, Estimator::Reservoir, Estimator::Jitter, Estimator::AbsWeight});
+                });
+    line.option("--taps", "K", "draws, averaged, 1 to " + std::to_string(shading::kMostTaps) + " (default 1)",
+                [&](const std::string& text) { draws.taps = int(parse_integer("--taps", text, 1, shading::kMostTaps)); });
+    line.option("--noise", "white|sobol|r2|blue|stbn", "their numbers: one of `rawtexel list noises` (default white)",
+                [&](const std::string& text) {
+                    draws.noise = parse_choice("--noise", text, {Noise::White, Noise::Sobol, Noise::R2, Noise::Blue, Noise::Stbn});
+                });
+    line.option("--seed", "S", "of all numbers, 0 to " + std::to_string(UINT32_MAX) + " (default 0)",
+                [&](const std::string& text) { draws.seed = uint32_t(parse_integer("--seed", text, 0, UINT32_MAX)); });
+    line.option("--pixel", "X,Y", "whose numbers they are, as `rawtexel explain` names it (default 0,0)", [&](const std::string& text) {
+        const std::vector<int64_t> values = parse_integers("--pixel", text, "X,Y", 2, 0, kMaxImageExtent - 1);
+        draws.pixel = {uint32_t(values[0]), uint32_t(values[1])};
+    });
+    line.option("--sample", "N",
+                "of the pixel, 0 to " + std::to_string(kMaxSamples - 1) + " (default 0); lines of @FILE are that sample and those after it",
+                [&](const std::string& text) { draws.sample = uint32_t(parse_integer("--sample", text, 0, kMaxSamples - 1)); });
+    line.option("--signed-numbers", "independent|common",
+                "numbers of the draws from positive and from negative weights: their own (the default), or the same",
+                [&](const std::string& text) {
+                    draws.common_numbers = parse_word("--signed-numbers", text, {"independent", "common"}) == 1;
+                });
+}
+
+/// Refuses draws where none are made, and those that the kernel does not have.
+void check_draws(const SampleRequest& request) {
+    const SampleRequest::Draws& draws = request.draws;
+    const std::pair<const char*, bool> given[] = {
+        {"--taps", draws.taps.has_value()},     {"--noise", draws.noise.has_value()},
+        {"--seed", draws.seed.has_value()},     {"--pixel", draws.pixel.has_value()},
+        {"--sample", draws.sample.has_value()}, {"--signed-numbers", draws.common_numbers.has_value()}};
+    if (!request.is_drawn()) {
+        for (const auto& [option, is_given] : given)
+            if (is_given) throw UsageError(std::string(option) + ": --estimator all weighs every tap and draws no numbers");
+        return;
+    }
+    const texunit::SamplerState sampler = make_sampler(request);
+    const std::string estimator(to_string(sampler.estimator));
+    if (sampler.ellipse > 0) {
+        if (sampler.estimator == texunit::Estimator::AbsWeight)
+            throw UsageError("--estimator abs-weight: the ellipse of --ewa has no negative weights; reservoir and jitter draw it");
+        if (draws.common_numbers.has_value()) throw UsageError("--signed-numbers: the ellipse of --ewa has no negative weights");
+        return;
+    }
+    const std::string kernel = to_string(sampler.minify);
+    const std::string_view reason = texunit::refusal(sampler.estimator, sampler.minify);
+    if (!reason.empty()) throw UsageError("--estimator: " + estimator + " cannot draw " + kernel + ", " + std::string(reason));
+    const bool is_signed = !texunit::weighs_as_probability(sampler.minify);
+    if (draws.common_numbers.has_value() && (!is_signed || sampler.estimator == texunit::Estimator::AbsWeight))
+        throw UsageError("--signed-numbers: " + estimator + " draws one texel of " + kernel + ", not one of either sign");
+}
+
 void check_exclusions(const SampleRequest& request) {
     if (request.ddx.empty() != request.ddy.empty())
         throw UsageError(request.ddx.empty() ? "--ddy without --ddx (both, or neither)" : "--ddx without --ddy (both, or neither)");
@@ -98,10 +160,12 @@ std::array<Wrap, 3> parse_wraps(std::string_view text) {
 void declare_sample_request(CommandLine& line, SampleRequest& request) {
     declare_place(line, request);
     declare_sampler(line, request);
+    declare_draws(line, request);
 }
 
 std::vector<LookupPlace> settle_places(const SampleRequest& request, std::string_view usage) {
     check_exclusions(request);
+    check_draws(request);
     check_lookup(request.lookup);
     if (!request.coordinates) throw UsageError("--uv U,V is missing (usage: rawtexel " + std::string(usage) + ")");
     const auto& [kind, place, file] = *request.coordinates;
@@ -114,6 +178,19 @@ std::vector<LookupPlace> settle_places(const SampleRequest& request, std::string
     for (LookupPlace& each : places)
         if (!each.derivatives) each.derivatives = derivatives;
     return places;
+}
+
+texunit::DrawSource make_draw_source(const SampleRequest& request, size_t n) {
+    const SampleRequest::Draws& draws = request.draws;
+    const auto [x, y] = draws.pixel.value_or(std::array<uint32_t, 2>{});
+    texunit::DrawSource source;
+    source.draws = draws.taps.value_or(1);
+    source.noise = draws.noise.value_or(texunit::Noise::White);
+    source.common_numbers = draws.common_numbers.value_or(false);
+    const uint32_t sample = draws.sample.value_or(0) + uint32_t(n);
+    // As renders count them: each sample has as many numbers as it has draws.
+    source.address = {.x = x, .y = y, .sample = sample * uint32_t(source.draws), .seed = draws.seed.value_or(0)};
+    return source;
 }
 
 texunit::SamplerState make_sampler(const SampleRequest& request) {

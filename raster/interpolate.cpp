@@ -55,4 +55,15 @@ Barycentrics barycentrics(const SetupTriangle& triangle, double x, double y) {
     return result;
 }
 
+PerspectiveSlope perspective_slope(const SetupTriangle& triangle, double x, double y) {
+    const InterpolationPlanes planes = interpolation_planes(triangle);
+    double sum = 0, dx = 0, dy = 0;
+    for (int i = 0; i < 3; ++i) {
+        sum += planes.scale[i] * planes.plane[i].at(x, y);
+        dx += planes.scale[i] * planes.plane[i].a;
+        dy += planes.scale[i] * planes.plane[i].b;
+    }
+    return {dx / sum, dy / sum};
+}
+
 }  // namespace rawtexel::raster

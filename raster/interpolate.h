@@ -19,6 +19,13 @@ struct Barycentrics {
 /// 1/256 pixel, for its planes are those of the unsnapped vertices.
 Barycentrics barycentrics(const SetupTriangle& triangle, double x, double y);
 
+/// Relative change of 1/w per pixel at (x, y). A step j along the screen changes an attribute of derivatives J by J*j/(1 + slope*j), in
+/// perspective and exactly; the denominator is what 1/w becomes there over what it is, above 0 wherever the plane can be seen.
+struct PerspectiveSlope {
+    double dx, dy;
+};
+PerspectiveSlope perspective_slope(const SetupTriangle& triangle, double x, double y);
+
 /// What `barycentrics` evaluates, by the primitive's corners: b_i/w = scale[i]*plane[i].at(x, y), up to one common factor.
 /// Planes of whole triangles are exact at every sample point: multiples of 1/512 below 2^53 of them.
 struct InterpolationPlanes {

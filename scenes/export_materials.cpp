@@ -1,5 +1,6 @@
 #include "scenes/export_materials.h"
 
+#include "scenes/gltf_policy.h"
 #include "scenes/image_io.h"
 
 #include <algorithm>
@@ -57,6 +58,7 @@ class MaterialExport {
         add_emission(exported);
         add_modes(exported);
         add_branches(exported);
+        add_policy(exported);
         return exported;
     }
 
@@ -74,6 +76,10 @@ class MaterialExport {
             require("KHR_texture_transform");
         }
         return info;
+    }
+
+    void add_policy(json& exported) {
+        if (material_.policy != shading::LookupPolicy()) exported["extras"]["rawtexel"]["policy"] = policy_json(material_.policy);
     }
 
     void add_branches(json& exported) {

@@ -1,6 +1,7 @@
 #include "scenes/export_textures.h"
 
 #include "scenes/encoded_bytes.h"
+#include "scenes/gltf_policy.h"
 #include "scenes/image_io.h"
 
 #include "texunit/srgb.h"
@@ -27,6 +28,14 @@ int magnification_code(Kernel kernel) { return kernel == Kernel::Nearest ? 9728 
 int minification_code(Kernel kernel, MipMode mip) {
     const int linear = kernel == Kernel::Nearest ? 0 : 1;
     return mip == MipMode::None ? 9728 + linear : 9984 + linear + (mip == MipMode::Linear ? 2 : 0);
+}
+
+/// Of `element` in `array`, at whose end it is put where it is new.
+int index_of(json& array, json element) {
+    const auto known = std::find(array.begin(), array.end(), element);
+    if (known != array.end()) return int(known - array.begin());
+    array.push_back(std::move(element));
+    return int(array.size()) - 1;
 }
 
 json sampler_json(const texunit::SamplerState& state) {
@@ -103,14 +112,6 @@ std::string_view extension_of_type(std::string_view mime_type) {
 
 }  // namespace
 
-int ExportTextures::sampler(const texunit::SamplerState& state) {
-    json sampler = sampler_json(state);
-    const auto known = std::find(samplers_.begin(), samplers_.end(), sampler);
-    if (known != samplers_.end()) return int(known - samplers_.begin());
-    samplers_.push_back(std::move(sampler));
-    return int(samplers_.size()) - 1;
-}
-
 int ExportTextures::image(int index, bool color) {
     const shading::SceneTexture& source = scene_.textures[size_t(index)];
     const std::string what = path_ + ": texture \"" + source.image_name + "\"";
@@ -140,10 +141,8 @@ int ExportTextures::image(int index, bool color) {
 }
 
 int ExportTextures::texture(int texture, const texunit::SamplerState& state, bool color) {
-    const int source = image(texture, color), sampler_index = sampler(state);
-    const auto [entry, is_new] = texture_of_.try_emplace({source, sampler_index}, int(textures_.size()));
-    if (!is_new) return entry->second;
-    json exported = {{"sampler", sampler_index}};
+    const int source = image(texture, color);
+    json exported = {{"sampler", index_of(samplers_, sampler_json(state))}};
     const std::string extension(extension_of_type(images_[size_t(source)]["mimeType"].get<std::string>()));
     if (extension.empty()) {
         exported["source"] = source;
@@ -151,8 +150,9 @@ int ExportTextures::texture(int texture, const texunit::SamplerState& state, boo
         exported["extensions"][extension]["source"] = source;
         extensions_.insert(extension);
     }
-    textures_.push_back(std::move(exported));
-    return entry->second;
+    const shading::LookupPolicy& policy = scene_.textures[size_t(texture)].policy;
+    if (policy != shading::LookupPolicy()) exported["extras"]["rawtexel"]["policy"] = policy_json(policy);
+    return index_of(textures_, std::move(exported));
 }
 
 }  // namespace rawtexel::scenes

@@ -9,7 +9,6 @@
 #include <map>
 #include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace rawtexel::scenes {
@@ -32,7 +31,6 @@ class ExportTextures {
 
   private:
     int image(int texture, bool color);
-    int sampler(const texunit::SamplerState& state);
 
     const shading::Scene& scene_;
     std::string path_;
@@ -40,7 +38,6 @@ class ExportTextures {
     nlohmann::json textures_ = nlohmann::json::array(), images_ = nlohmann::json::array(), samplers_ = nlohmann::json::array();
     std::set<std::string> extensions_;
     std::map<const void*, int> image_of_;  // by encoded bytes, or by texture where it was generated
-    std::map<std::tuple<int, int>, int> texture_of_;
 };
 
 }  // namespace rawtexel::scenes

@@ -1,5 +1,6 @@
 #include "scenes/gltf_materials.h"
 
+#include "scenes/gltf_policy.h"
 #include "scenes/message_text.h"
 
 #include <cmath>
@@ -55,6 +56,7 @@ class MaterialReader {
         material.maps[shading::kNormal] = map(source.normalTexture, false);
         material.maps[shading::kOcclusion] = map(source.occlusionTexture, false);
         material.maps[shading::kEmissive] = map(source.emissiveTexture, true);
+        material.policy = read_policy(document_, "materials[" + std::to_string(index) + "]", source.extras);
         if (source.extras.Has("rawtexel")) set_branches(source.extras.Get("rawtexel"), material);
         return material;
     }

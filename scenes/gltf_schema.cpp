@@ -76,10 +76,19 @@ class Checker {
                 throw SchemaError(owner + " has no \"" + std::string(property.name) + "\" (it is required)");
             }
         }
+        if (rules.closed) check_closed(value, rules, place);
         return kept;
     }
 
   private:
+    static void check_closed(const json& value, const ObjectRules& rules, const Place& place) {
+        std::string names;
+        for (const Property& property : rules.properties) names += (names.empty() ? "" : ", ") + std::string(property.name);
+        for (const auto& [name, member] : value.items())
+            if (std::ranges::find(rules.properties, name, &Property::name) == rules.properties.end())
+                throw SchemaError(place.text() + "." + shortened(name) + " is unknown (allowed: " + names + ")");
+    }
+
     json value(const json& v, const Property& rule, const Place& place) const {
         switch (rule.kind) {
             case Kind::Flag: return v.is_boolean() ? v : (reject(place, v, "true or false"), v);

@@ -131,6 +131,13 @@ constexpr Property kMaterialExtensions[] = {
     {.name = "KHR_materials_unlit", .kind = Kind::Object, .object = &kEmptyRules},
 };
 constexpr ObjectRules kMaterialExtensionsRules{kMaterialExtensions};
+constexpr Property kPolicy[] = {
+    {.name = "order", .kind = Kind::Text},
+    {.name = "estimator", .kind = Kind::Text},
+    {.name = "filter", .kind = Kind::Text},
+    {.name = "mip", .kind = Kind::Text},
+};
+constexpr ObjectRules kPolicyRules{kPolicy, true};
 constexpr Property kTriplanar[] = {
     {.name = "scale",
      .kind = Kind::Number,
@@ -148,6 +155,7 @@ constexpr ObjectRules kTriplanarRules{kTriplanar}, kLayersRules{kLayers};
 constexpr Property kMaterialRawtexel[] = {
     {.name = "triplanar", .kind = Kind::Object, .object = &kTriplanarRules},
     {.name = "layers", .kind = Kind::Object, .object = &kLayersRules},
+    {.name = "policy", .kind = Kind::Object, .object = &kPolicyRules},
 };
 constexpr ObjectRules kMaterialRawtexelRules{kMaterialRawtexel};
 constexpr Property kMaterialExtras[] = {
@@ -237,11 +245,20 @@ constexpr Property kTextureExtensions[] = {
     {.name = "MSFT_texture_dds", .kind = Kind::Object, .object = &kTextureSourceRules},
 };
 constexpr ObjectRules kTextureExtensionsRules{kTextureExtensions};
+constexpr Property kTextureRawtexel[] = {
+    {.name = "policy", .kind = Kind::Object, .object = &kPolicyRules},
+};
+constexpr ObjectRules kTextureRawtexelRules{kTextureRawtexel};
+constexpr Property kTextureExtras[] = {
+    {.name = "rawtexel", .kind = Kind::Object, .object = &kTextureRawtexelRules},
+};
+constexpr ObjectRules kTextureExtrasRules{kTextureExtras};
 constexpr Property kTexture[] = {
     {.name = "name", .kind = Kind::Text},
     {.name = "sampler", .kind = Kind::Index, .refers_to = "samplers"},
     {.name = "source", .kind = Kind::Index, .refers_to = "images"},
     {.name = "extensions", .kind = Kind::Object, .object = &kTextureExtensionsRules},
+    {.name = "extras", .kind = Kind::Extras, .object = &kTextureExtrasRules},
 };
 
 constexpr Property kAnimationTarget[] = {

@@ -50,6 +50,7 @@ struct Property {
 
 struct ObjectRules {
     std::span<const Property> properties;
+    bool closed = false;  ///< no other properties are allowed; glTF itself lets them be
 };
 
 /// Of the whole document, but for its animations; and of these.

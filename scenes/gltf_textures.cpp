@@ -1,11 +1,13 @@
 #include "scenes/gltf_textures.h"
 
 #include "scenes/encoded_bytes.h"
+#include "scenes/gltf_policy.h"
 #include "scenes/image_claim.h"
 #include "scenes/image_codec.h"
 
 #include "texunit/containers.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace rawtexel::scenes {
@@ -76,6 +78,8 @@ GltfTextures::GltfTextures(const GltfDocument& document, const LoadOptions& opti
         if (texunit::container_kind(*image.encoded) == ContainerKind::Ktx2 && is_basis_universal(*image.encoded)) continue;
         open(int(i), false);
     }
+    for (size_t i = 0; i < document.model.textures.size(); ++i)
+        policies_.push_back(read_policy(document, "textures[" + std::to_string(i) + "]", document.model.textures[i].extras));
 }
 
 std::unique_ptr<texunit::TexelSource> GltfTextures::open(int index, bool srgb) const {
@@ -105,11 +109,21 @@ int GltfTextures::image_of(int index) {
 }
 
 int GltfTextures::texture(int index, bool srgb) {
-    const int image = image_of(index);
-    if (image < 0) return image;
-    const auto [entry, is_new] = known_.try_emplace({image, srgb}, int(textures_.size()));
-    if (!is_new) return entry->second;
+    const Entry wanted{image_of(index), srgb, policies_[size_t(index)]};
+    if (wanted.image < 0) return wanted.image;
+    const auto known = std::ranges::find(known_, wanted);
+    if (known != known_.end()) return int(known - known_.begin());
 
+    // The texels are the same whatever the policy.
+    const auto same_texels = [&](const Entry& entry) { return entry.image == wanted.image && entry.srgb == srgb; };
+    const auto alike = std::ranges::find_if(known_, same_texels);
+    textures_.push_back(alike == known_.end() ? make(wanted.image, srgb) : textures_[size_t(alike - known_.begin())]);
+    textures_.back().policy = wanted.policy;
+    known_.push_back(wanted);
+    return int(known_.size()) - 1;
+}
+
+shading::SceneTexture GltfTextures::make(int image, bool srgb) const {
     const GltfImage& source = document_.images[size_t(image)];
     shading::SceneTexture texture;
     texture.texture = std::make_shared<texunit::Texture>(source.name, open(image, srgb), texture_options_);
@@ -119,8 +133,7 @@ int GltfTextures::texture(int index, bool srgb) {
     if (texture.mime_type.empty()) texture.mime_type = source.mime_type;
     texture.srgb = srgb;
     texture.encoded = source.encoded;
-    textures_.push_back(std::move(texture));
-    return entry->second;
+    return texture;
 }
 
 texunit::SamplerState GltfTextures::sampler(int index) const {

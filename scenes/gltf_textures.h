@@ -1,4 +1,4 @@
-// The textures of a glTF: each image once per use as colour or as data.
+// The textures of a glTF: each image once per use as colour or as data, and once more per policy.
 #pragma once
 
 #include "scenes/gltf_document.h"
@@ -7,8 +7,6 @@
 
 #include "shading/scene.h"
 
-#include <map>
-#include <utility>
 #include <vector>
 
 namespace rawtexel::scenes {
@@ -27,7 +25,16 @@ class GltfTextures {
     std::vector<shading::SceneTexture> take() { return std::move(textures_); }
 
   private:
+    /// An image seen as colour or data, and how it is looked up.
+    struct Entry {
+        int image;
+        bool srgb;
+        shading::LookupPolicy policy;
+        bool operator==(const Entry&) const = default;
+    };
+
     int image_of(int texture);  ///< -1: none
+    shading::SceneTexture make(int image, bool srgb) const;
     std::unique_ptr<texunit::TexelSource> open(int image, bool srgb) const;
 
     const GltfDocument& document_;
@@ -35,7 +42,8 @@ class GltfTextures {
     texunit::ContainerOptions file_options_;
     GltfNotices& notices_;
     std::vector<shading::SceneTexture> textures_;
-    std::map<std::pair<int, bool>, int> known_;  ///< (image, srgb) to index
+    std::vector<shading::LookupPolicy> policies_;  ///< of the document's textures
+    std::vector<Entry> known_;                     ///< what each of textures_ was made for
 };
 
 }  // namespace rawtexel::scenes

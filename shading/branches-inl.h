@@ -9,6 +9,7 @@
 
 #include "shading/lookup-inl.h"
 #include "shading/planes-inl.h"
+#include "shading/texture_jitter-inl.h"
 #include "texunit/noise.h"
 
 #include <algorithm>
@@ -34,13 +35,15 @@ struct MaskLookup {
 
 class MaterialBranches {
   public:
-    /// What the weights follow from, of a material that branches.
+    /// What the weights follow from, of a material that branches. `steps` have been found for its lanes.
     template <class Corners>
-    HWY_INLINE void prepare(const DrawState& draw, const Corners& corners, const raster::BarycentricWave& weights) {
+    HWY_INLINE void prepare(const DrawState& draw, const Corners& corners, const raster::BarycentricWave& weights,
+                            const TextureSteps& steps) {
         find_object_normal(*draw.mesh, corners, weights, normals_);
         const MaterialState& material = *draw.material;
         if (material.mask.texture) {
             interpolate_coordinates(material.coordinates[size_t(material.mask.coordinates)], *draw.mesh, corners, weights, mask_at_);
+            if (steps.taken()) steps.take(&mask_at_, 1);
         } else if (draw.colors_weigh && !draw.mesh->colors.empty()) {
             interpolate_weights(*draw.mesh, corners, weights);
         } else {

@@ -13,6 +13,7 @@
 #include "shading/lookup-inl.h"
 #include "shading/material_taps-inl.h"
 #include "shading/pixel_rect.h"
+#include "shading/texture_jitter-inl.h"
 #include "texunit/random-inl.h"
 
 #include <span>
@@ -28,9 +29,14 @@ namespace random = texunit::HWY_NAMESPACE;
 /// number is held against the share of those that do: with one draw, the texel that will be shaded decides.
 class AlphaCoverage {
   public:
-    AlphaCoverage(const raster::Frame& frame, std::span<const DrawState> draws, const PixelRect& visible, uint32_t seed,
-                  const DerivativeRule& derivatives = {})
-        : frame_(frame), draws_(draws), visible_(visible), seed_(seed), derivatives_(derivatives) {}
+    /// Judges fragments inside `visible`.
+    AlphaCoverage(const TileInputs& inputs, const PixelRect& visible)
+        : frame_(*inputs.frame),
+          draws_(inputs.draws),
+          visible_(visible),
+          seed_(inputs.seed),
+          derivatives_(inputs.derivatives),
+          steps_(inputs) {}
 
     void begin_sample(uint32_t sample) { sample_ = sample; }
     uint32_t cover(const raster::CandidateWave& candidate) {
@@ -62,14 +68,17 @@ class AlphaCoverage {
         if (map.texture || colored) {
             alignas(64) uint32_t setup_index[texunit::kWaveLanes];
             for (uint32_t& index : setup_index) index = candidate.setup_index;
-            find_barycentrics(derivatives_, {frame_, setup_index, candidate.offset, candidate.x, candidate.y}, mask, weights_);
+            const SampleBlock block{frame_, setup_index, candidate.offset, candidate.x, candidate.y};
+            find_barycentrics(derivatives_, block, mask, weights_);
             clamp_weights(weights_);
+            if (steps_.taken()) steps_.find(block, mask, sample_, true);
         }
         if (colored) find_vertex_alpha(mesh, corners);
         vertex_ = colored ? &vertex_alpha_ : nullptr;
         if (map.texture) {
             texunit::WaveCoordinates& at = coordinates_[map.coordinates];
             interpolate_coordinates(material.coordinates[size_t(map.coordinates)], mesh, corners, weights_, at);
+            if (steps_.taken()) steps_.take(&at, 1);
             if (draws(material)) return find_drawn_alpha(material, candidate, mask);
             if (material.draws_level) draw_level(material, candidate, mask, at);
             look_up(map, at, mask, maps_[kBaseColor], nullptr);
@@ -157,6 +166,7 @@ class AlphaCoverage {
     PixelRect visible_;
     uint32_t seed_;
     DerivativeRule derivatives_;
+    TextureSteps steps_;
     uint32_t sample_ = 0;
     raster::BarycentricWave weights_{};
     texunit::WaveCoordinates coordinates_[kMapSlots]{};

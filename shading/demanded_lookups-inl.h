@@ -12,6 +12,7 @@
 #include "shading/fetch_options.h"
 #include "shading/lookup_listener.h"
 #include "shading/material_taps-inl.h"
+#include "shading/texture_jitter-inl.h"
 #include "shading/tile.h"
 #include "shading/wave_draws-inl.h"
 
@@ -53,7 +54,8 @@ class DemandedLookups {
           listener_(*scratch.listener),
           tile_size_(frame_.options().tile_size),
           tile_x_(tile_x * tile_size_),
-          tile_y_(tile_y * tile_size_) {
+          tile_y_(tile_y * tile_size_),
+          steps_(inputs) {
         list_waves();
     }
 
@@ -193,13 +195,14 @@ class DemandedLookups {
         const auto with_all = [&](const auto& act) HWY_ATTR {
             with_corners(frame_, mesh, all.setup_index, {0, all.base_color, all.one_triangle}, act);
         };
-        with_all([&](const auto& corners) HWY_ATTR { branches_.prepare(*all.draw, corners, weights_); });
+        with_all([&](const auto& corners) HWY_ATTR { branches_.prepare(*all.draw, corners, weights_, steps_); });
         const texunit::RandomAddress address{.x = uint32_t(wave_.x), .y = uint32_t(wave_.y), .sample = wave_.sample, .seed = inputs_.seed};
         const auto tell_mask = [&](const MaskLookup& mask) { listener_.lookup({kLayerMask, mask.map, mask.lanes, mask.at}); };
         branches_.for_each(*all.draw, all.base_color, address, tell_mask, [&](const Branch& branch) HWY_ATTR {
             const MaterialState& material = *branch.draw->material;
             with_all([&](const auto& corners)
                          HWY_ATTR { interpolate_map_coordinates(material, mesh, corners, weights_, branch.planes, coordinates_); });
+            if (steps_.taken()) steps_.take(coordinates_, material.coordinate_count);
             asking_.base_color = all.base_color & branch.lanes;
             asking_.others = all.others & branch.lanes;
             tell_maps(material);
@@ -277,10 +280,14 @@ class DemandedLookups {
         with_corners(frame_, mesh, asking_.setup_index, {0, asking_.base_color, asking_.one_triangle}, [&](const auto& corners) HWY_ATTR {
             interpolate_map_coordinates(material, mesh, corners, weights_, nullptr, coordinates_);
         });
+        if (steps_.taken()) steps_.take(coordinates_, material.coordinate_count);
     }
 
     void find_weights() {
-        find_barycentrics(inputs_.derivatives, {frame_, asking_.setup_index, offset_, wave_.x, wave_.y}, asking_.base_color, weights_);
+        const SampleBlock block{frame_, asking_.setup_index, offset_, wave_.x, wave_.y};
+        find_barycentrics(inputs_.derivatives, block, asking_.base_color, weights_);
+        const bool layered = asking_.draw->material->material->alpha_mode != AlphaMode::Opaque;
+        if (steps_.taken()) steps_.find(block, asking_.base_color, wave_.sample, layered);
         const raster::BarycentricWave unclamped = weights_;
         clamp_weights(weights_);
         for (WaveMask lanes = asking_.beyond; lanes != 0; lanes &= lanes - 1) {
@@ -295,6 +302,7 @@ class DemandedLookups {
     TileScratch& scratch_;
     LookupListener& listener_;
     int tile_size_, tile_x_, tile_y_;
+    TextureSteps steps_;
     std::vector<WavePlace> waves_;
     ListenedWave wave_;
     AskingFragments asking_;

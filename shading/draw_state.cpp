@@ -121,8 +121,9 @@ MaterialState make_material_state(const Scene& scene, uint32_t index, const Look
     MaterialState state;
     state.material = &scene.materials[index];
     state.index = index;
-    state.blend = overrides.filtering.effective_blend();
-    state.blends_light = overrides.filtering.effective_order() == FilterOrder::After;
+    const FilteringOptions filtering = apply(state.material->policy, overrides.filtering);
+    state.blend = filtering.effective_blend();
+    state.blends_light = filtering.effective_order() == FilterOrder::After;
     state.plans.noise = overrides.filtering.noise;
     if (state.material->layers) {
         add_mask(scene, overrides, state);
@@ -197,6 +198,7 @@ uint64_t moment_bytes(const DrawStates& states) {
 /// Whether some lookup, branch or shadow test of the frame takes numbers that a noise gives; dithers have numbers of their own.
 bool takes_noise(const DrawStates& states, const FilteringOptions& filtering) {
     if (filtering.estimator != texunit::Estimator::All || draws_level(filtering.baseline)) return true;
+    if (filtering.texture_jitter != TextureJitter::None) return true;
     if (filtering.shadow_taps == ShadowTaps::One || (filtering.effective_blend() == Blend::Draw && !is_dither(filtering.baseline)))
         return true;
     const auto draws = [](const MapState& map) { return map.texture != nullptr && map.sampler.estimator != texunit::Estimator::All; };

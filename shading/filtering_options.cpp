@@ -6,6 +6,9 @@ std::string_view to_string(FilterOrder order) { return order == FilterOrder::Aft
 std::string_view to_string(NumberSharing sharing) { return sharing == NumberSharing::PerMap ? "per-map" : "shared"; }
 std::string_view to_string(Blend blend) { return blend == Blend::Draw ? "draw" : "all"; }
 std::string_view to_string(ShadowTaps taps) { return taps == ShadowTaps::One ? "one" : "all"; }
+std::string_view to_string(TextureJitter jitter) {
+    return jitter == TextureJitter::None ? "none" : jitter == TextureJitter::Affine ? "affine" : "perspective";
+}
 
 std::optional<FilterOrder> parse_filter_order(std::string_view text) {
     if (text == "before") return FilterOrder::Before;

@@ -23,10 +23,16 @@ enum class Blend : uint8_t { All, Draw };
 /// Depth tests of the sun's shadow: the whole tent of 16, or one drawn from it.
 enum class ShadowTaps : uint8_t { All, One };
 
+/// Where in the pixel textures are looked up: with the surface's own sample point, or at a point of their own drawn from the pixel filter,
+/// which filters minified textures without levels (the unified scheme of Pharr, Wronski, Salvi and Fajardo 2024). Coordinates there are the
+/// triangle's plane's, in perspective or by a step along the derivatives.
+enum class TextureJitter : uint8_t { None, Perspective, Affine };
+
 std::string_view to_string(FilterOrder order);      // before after
 std::string_view to_string(NumberSharing sharing);  // shared per-map
 std::string_view to_string(Blend blend);            // all draw
 std::string_view to_string(ShadowTaps taps);        // all one
+std::string_view to_string(TextureJitter jitter);   // none perspective affine
 std::optional<FilterOrder> parse_filter_order(std::string_view text);
 std::optional<NumberSharing> parse_number_sharing(std::string_view text);
 
@@ -42,6 +48,7 @@ struct FilteringOptions {
     texunit::Noise noise = texunit::Noise::White;  ///< of the draws
     std::optional<Blend> blend = std::nullopt;     ///< nullopt: Draw with an estimator that draws, else All
     ShadowTaps shadow_taps = ShadowTaps::All;
+    TextureJitter texture_jitter = TextureJitter::None;
     Baseline baseline = Baseline::None;  ///< goes with All and its own order alone
 
     bool draws() const { return estimator != texunit::Estimator::All || is_dither(baseline); }

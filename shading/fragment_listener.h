@@ -52,9 +52,11 @@ struct MaskedFragments {
     const texunit::WaveCoordinates* at = nullptr;
 };
 
-/// One of several planes or layers begins that are blended: what is tapped and shaded next, with `branch` set, is of it.
+/// One of several planes or layers begins that are blended: what is tapped and shaded next, with `branch` set, is of it. Or the one that is
+/// drawn from them, without a weight: what is tapped and shaded next is what is seen.
 struct BranchedFragments {
     WatchedBlock block;
+    const MaterialState* whole = nullptr;  ///< that branches
     const WaveFloat* weight = nullptr;
 };
 

@@ -101,6 +101,11 @@ SequenceShift sequence_shift(PixelJitter jitter, uint32_t x, uint32_t y, uint32_
             texunit::random_bits({.x = x, .y = y, .dimension = Dimension::PixelY, .seed = seed})};
 }
 
+raster::SampleOffset filtered_offset(PixelFilter filter, float x, float y) {
+    const OffsetTable& table = offset_table(filter);
+    return {table.offset(uint32_t(x * 0x1p32f)), table.offset(uint32_t(y * 0x1p32f))};
+}
+
 raster::SampleOffset sample_offset(PixelFilter filter, PixelJitter jitter, uint32_t sample, const SequenceShift& shift) {
     if (jitter == PixelJitter::Frame && sample == 0) return {};
     const OffsetTable& table = offset_table(filter);

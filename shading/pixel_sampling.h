@@ -27,6 +27,9 @@ float filter_radius(PixelFilter filter);
 /// The same for any total number of samples. Sequence: R2 (Roberts 2018), in Pixel mode shifted by a hash of the pixel.
 raster::SampleOffset sample_offset(PixelFilter filter, PixelJitter jitter, uint32_t sample, uint32_t x, uint32_t y, uint32_t seed);
 
+/// The offset that the filter gives to two numbers in [0, 1): odd multiples of 1/512 pixel.
+raster::SampleOffset filtered_offset(PixelFilter filter, float x, float y);
+
 /// The part of it that does not depend on the sample: a toroidal shift of the sequence, in 2^-32.
 struct SequenceShift {
     uint32_t x = 0, y = 0;

@@ -160,6 +160,7 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
         .background = options.background,
         .planes = TilePlanes(options.aovs, options.coverage),
         .shadow_taps = options.filtering.shadow_taps,
+        .texture_jitter = options.filtering.texture_jitter,
         .noise = options.filtering.noise,
         .fetch_model = fetches.model,
     };

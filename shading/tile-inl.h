@@ -17,6 +17,7 @@
 #include "shading/lookup-inl.h"
 #include "shading/material-inl.h"
 #include "shading/tap_sum-inl.h"
+#include "shading/texture_jitter-inl.h"
 #include "shading/tile.h"
 #include "shading/wave_draws-inl.h"
 
@@ -53,7 +54,8 @@ class TileRenderer {
           waves_x_(tile_size_ / texunit::kWaveWidth),
           tested_(scratch.listener && inputs.fetch_model == FetchModel::Quad ? whole_quads(inputs.visible, frame_.options())
                                                                              : inputs.visible),
-          coverage_(frame_, inputs.draws, tested_, inputs.seed, inputs.derivatives) {}
+          coverage_(inputs, tested_),
+          steps_(inputs) {}
 
     void render() {
         using Clock = std::chrono::steady_clock;
@@ -268,7 +270,7 @@ class TileRenderer {
 
     /// One masked pass per draw that the wave sees.
     void shade_surfaces(WaveMask surface) {
-        find_barycentrics(inputs_.derivatives, {frame_, wave_.setup_index, wave_.offset, wave_.x, wave_.y}, surface, weights_);
+        find_barycentrics(inputs_.derivatives, sample_block(), surface, weights_);
         if (inputs_.shadow_taps == ShadowTaps::One) find_shadow_numbers();
         clamp_weights(weights_);
         for (WaveMask rest = surface; rest != 0;) {
@@ -276,14 +278,23 @@ class TileRenderer {
             const DrawState& draw = inputs_.draws[seen.draw];
             rest &= ~seen.lanes;
             find_facing(seen);
+            if (steps_.taken())
+                steps_.find(sample_block(), seen.lanes, wave_.sample, draw.material->material->alpha_mode != AlphaMode::Opaque);
             if (draw.material->branches()) {
                 shade_branches(draw, seen);
                 continue;
             }
-            with_corners(frame_, *draw.mesh, wave_.setup_index, seen,
-                         [&](const auto& corners) HWY_ATTR { interpolate_fragment(draw, corners, weights_, fragment_); });
+            find_fragment(draw, seen);
             shade_pass(draw, seen.lanes);
         }
+    }
+
+    SampleBlock sample_block() const { return {frame_, wave_.setup_index, wave_.offset, wave_.x, wave_.y}; }
+
+    void find_fragment(const DrawState& draw, const DrawLanes& seen, const PlaneLanes* planes = nullptr) {
+        with_corners(frame_, *draw.mesh, wave_.setup_index, seen,
+                     [&](const auto& corners) HWY_ATTR { interpolate_fragment(draw, corners, weights_, fragment_, planes); });
+        if (steps_.taken()) steps_.take(fragment_.coordinates, draw.material->coordinate_count);
     }
 
     void find_shadow_numbers() {
@@ -305,7 +316,7 @@ class TileRenderer {
     HWY_NOINLINE void shade_branches(const DrawState& draw, const DrawLanes& seen) {
         const MaterialState& material = *draw.material;
         with_corners(frame_, *draw.mesh, wave_.setup_index, seen,
-                     [&](const auto& corners) HWY_ATTR { branches_.prepare(draw, corners, weights_); });
+                     [&](const auto& corners) HWY_ATTR { branches_.prepare(draw, corners, weights_, steps_); });
         branch_sum_.clear();
         branches_.for_each(
             draw, seen.lanes, wave_address(), [&](const MaskLookup& mask) { tell_masked(mask); },
@@ -329,11 +340,9 @@ class TileRenderer {
 
     /// Stored where it was drawn, else added to branch_sum_.
     HWY_NOINLINE void shade_branch(const DrawState& draw, const DrawLanes& seen, const Branch& branch) {
-        with_corners(frame_, *draw.mesh, wave_.setup_index, seen, [&](const auto& corners) HWY_ATTR {
-            interpolate_fragment(*branch.draw, corners, weights_, fragment_, branch.planes);
-        });
+        find_fragment(*branch.draw, seen, branch.planes);
         in_branch_ = branch.weight != nullptr;
-        if (watched() && in_branch_) scratch_.fragment_listener->branched({{wave_.x, wave_.y, wave_.sample, branch.lanes}, branch.weight});
+        if (watched()) scratch_.fragment_listener->branched({{wave_.x, wave_.y, wave_.sample, branch.lanes}, draw.material, branch.weight});
         if (!branch.weight) {
             shade_fragments(*branch.draw, branch.lanes);
             store_pass(draw, branch.lanes);
@@ -526,6 +535,7 @@ class TileRenderer {
     int tile_x_, tile_y_, tile_size_, waves_x_;
     PixelRect tested_;  ///< whose fragments are asked whether they cover
     AlphaCoverage coverage_;
+    TextureSteps steps_;
     raster::SampleOffset frame_offset_;
     bool first_sample_ = false;
     bool in_branch_ = false;  ///< what is shaded is blended with other branches

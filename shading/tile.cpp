@@ -15,7 +15,10 @@ void render_tile_lanes(const TileInputs& inputs, int tile_x, int tile_y, TileScr
 void draw_shadow_tile_lanes(const raster::Frame& frame, std::span<const DrawState> draws, int tile_x, int tile_y,
                             raster::TileVisibility& out) {
     const raster::FrameOptions& options = frame.options();
-    AlphaCoverage coverage(frame, draws, {0, 0, options.width, options.height}, 0);
+    TileInputs inputs;
+    inputs.frame = &frame;
+    inputs.draws = draws;
+    AlphaCoverage coverage(inputs, {0, 0, options.width, options.height});
     const auto cover = [&](const raster::CandidateWave& candidate) HWY_ATTR { return coverage.cover(candidate); };
     raster::HWY_NAMESPACE::tile_visibility(frame, tile_x, tile_y, raster::TileSamples{}, cover, out);
 }

@@ -38,7 +38,8 @@ struct TileInputs {
     std::optional<glm::vec3> background;  ///< nullopt: the environment, black where there is none
     TilePlanes planes;
     ShadowTaps shadow_taps = ShadowTaps::All;
-    texunit::Noise noise = texunit::Noise::White;  ///< of the numbers that pick them
+    TextureJitter texture_jitter = TextureJitter::None;
+    texunit::Noise noise = texunit::Noise::White;  ///< of the numbers of both
     FetchModel fetch_model = FetchModel::Visible;  ///< of what listeners hear
 };
 

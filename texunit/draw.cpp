@@ -72,7 +72,7 @@ void draw(Texture& texture, const SamplerState& sampler, const WaveCoordinates& 
           TexelDraw& drawn, const WaveFloat* layer) {
     WaveCoordinates filled;
     const WaveCoordinates& coordinates = prepare(texture, at, mask, layer, filled, drawn.slice);
-    draw_lanes(texture.levels(), sampler, coordinates, mask, numbers, Lobes::Positive, {}, drawn);
+    draw_lanes(flat_lookup(texture.levels(), sampler, coordinates), mask, numbers, Lobes::Positive, {}, drawn);
 }
 
 void draw_signed(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& positive,
@@ -80,9 +80,10 @@ void draw_signed(Texture& texture, const SamplerState& sampler, const WaveCoordi
     WaveCoordinates filled;
     const WaveCoordinates& coordinates = prepare(texture, at, mask, layer, filled, drawn.positive.slice);
     drawn.negative.slice = drawn.positive.slice;
+    const DrawnLookup lookup = flat_lookup(texture.levels(), sampler, coordinates);
     WaveFloat& mass = drawn.negative_weight;
-    draw_lanes(texture.levels(), sampler, coordinates, mask, positive, Lobes::Positive, {nullptr, &mass}, drawn.positive);
-    draw_lanes(texture.levels(), sampler, coordinates, mask, negative, Lobes::Negative, {&mass, nullptr}, drawn.negative);
+    draw_lanes(lookup, mask, positive, Lobes::Positive, {nullptr, &mass}, drawn.positive);
+    draw_lanes(lookup, mask, negative, Lobes::Negative, {&mass, nullptr}, drawn.negative);
     for (int lane = 0; lane < kWaveLanes; ++lane) drawn.positive_weight[lane] = 1 + mass[lane];
 }
 
@@ -90,7 +91,7 @@ void draw_absolute(Texture& texture, const SamplerState& sampler, const WaveCoor
                    TexelDraw& drawn, WaveFloat& factor, const WaveFloat* layer) {
     WaveCoordinates filled;
     const WaveCoordinates& coordinates = prepare(texture, at, mask, layer, filled, drawn.slice);
-    draw_lanes(texture.levels(), sampler, coordinates, mask, numbers, Lobes::Magnitude, {nullptr, &factor}, drawn);
+    draw_lanes(flat_lookup(texture.levels(), sampler, coordinates), mask, numbers, Lobes::Magnitude, {nullptr, &factor}, drawn);
 }
 
 void read(Texture& texture, const SamplerState& sampler, const TexelDraw& drawn, WaveColor& out) {
@@ -146,6 +147,22 @@ void draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise)
 void negative_draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise) {
     if (noise == Noise::White) return HWY_DYNAMIC_DISPATCH(hash_numbers)(first, true, numbers);
     HWY_DYNAMIC_DISPATCH(find_noise)(noise, first, true, numbers);
+}
+
+namespace {
+
+void find_depth(Noise noise, RandomAddress first, Dimension dimension, DrawNumbers& numbers) {
+    first.dimension = dimension;
+    noise_wave(noise, first, numbers.z);
+}
+
+}  // namespace
+
+void draw_depth_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise) {
+    find_depth(noise, first, Dimension::TapZ, numbers);
+}
+void negative_draw_depth_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise) {
+    find_depth(noise, first, Dimension::NegativeZ, numbers);
 }
 
 void draw_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,

@@ -16,14 +16,19 @@ struct DrawNumbers {
     WaveFloat level;  ///< the coarser level or the finer (Dimension::Level)
     WaveFloat probe;  ///< of an anisotropic lookup (Dimension::Probe)
     WaveFloat sign;   ///< of kernels with negative lobes: which signs the axes' weights have (Dimension::Sign)
+    /// Of volumes the slice, of cube maps which of the three texels that meet beyond a corner (Dimension::TapZ). Flat lookups never look.
+    WaveFloat z;
 };
 
-/// The numbers of a wave whose upper left pixel is (first.x, first.y); first.dimension is not looked at.
+/// The numbers of a wave whose upper left pixel is (first.x, first.y), but for z; first.dimension is not looked at.
 void draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise = Noise::White);
 /// Those of the negative weights' texel: its own but for level and probe, which both share.
 void negative_draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise = Noise::White);
+/// numbers.z alone, for volumes and cube maps.
+void draw_depth_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise = Noise::White);
+void negative_draw_depth_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise = Noise::White);
 
-/// The texel that each lane drew.
+/// The texel that each lane drew. `slice`: array layer, depth slice, or 6*cube + face.
 struct TexelDraw {
     WaveInt level, slice, x, y;
     WaveMask border = 0;  ///< lanes that take the border colour
@@ -39,7 +44,8 @@ struct SignedDraw {
     WaveFloat positive_weight, negative_weight;
 };
 
-/// Draws for the lanes of `mask` in a 2-D texture, or in `layer` of an array, as sampler.estimator says (All draws as Reservoir does);
+/// Draws for the lanes of `mask` in a 2-D texture, or in `layer` of an array (of volumes and cube maps: texunit/shared_draw.h), as
+/// sampler.estimator says (All draws as Reservoir does);
 /// reads no texel. The kernels' weights are probabilities (asserted). Levels, probes and kernels are chosen as by sample_wave; where
 /// sampler.ellipse is positive the draw is from the ellipse. Other lanes repeat an active one.
 void draw_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,

@@ -131,19 +131,24 @@ HWY_INLINE WaveMask negative_lanes(const AxisTaps& taps, const SignedSums& sums,
     return negative;
 }
 
-/// The nearest texel after the coordinate has moved by the kernel's offset. Returns the lanes whose texel is beyond an edge.
+/// The nearest texel after the coordinate has moved by the kernel's offset; of a cube map maybe beyond the face. Returns the lanes whose
+/// texel is beyond an edge.
 template <EdgeRule rule>
 HWY_NOINLINE WaveMask jitter_axis_as(const Kernel& kernel, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
-                                     const WaveInt& level, Precision precision, const WaveFloat& number, WaveInt& drawn) {
+                                     const WaveInt& level, const CoordinateReading& reading, const WaveFloat& number, WaveInt& drawn) {
     const FloatTag d;
     const IntTag di;
     WaveMask border = 0;
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
         const auto extent = look_up_level(di, extents, hn::Load(di, level.lane + i));
         hn::Vec<FloatTag> integer, remainder;
-        locate<rule>(coordinate, {precision, nullptr}, hn::ConvertTo(d, extent), i, integer, remainder);
+        locate<rule>(coordinate, reading, hn::ConvertTo(d, extent), i, integer, remainder);
         const auto moved = hn::Floor(hn::Add(remainder, jitter_offset(kernel, hn::Load(d, number.lane + i))));
-        const auto index = hn::ConvertTo(di, hn::Add(integer, moved));
+        auto index = hn::ConvertTo(di, hn::Add(integer, moved));
+        if constexpr (rule == EdgeRule::CubeEdge) {
+            // One texel never leaves the face: a coordinate of 1 belongs to the last.
+            if (kernel.kind == KernelKind::Nearest) index = limit_index<EdgeRule::ClampToEdge>(index, extent);
+        }
         const auto period = rule == EdgeRule::MirroredRepeat ? hn::Add(extent, extent) : extent;
         if constexpr (repeats(rule)) {
             hn::Store(fold_period<rule>(modulo_period(index, period), period), di, drawn.lane + i);
@@ -155,10 +160,10 @@ HWY_NOINLINE WaveMask jitter_axis_as(const Kernel& kernel, const WaveFloat& coor
     return border;
 }
 
-HWY_INLINE WaveMask jitter_axis(const Kernel& kernel, Wrap wrap, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
-                                const WaveInt& level, Precision precision, const WaveFloat& number, WaveInt& drawn) {
-    return with_rule(edge_rule(wrap), [&](auto constant) HWY_ATTR {
-        return jitter_axis_as<decltype(constant)::value>(kernel, coordinate, extents, level, precision, number, drawn);
+HWY_INLINE WaveMask jitter_axis(const Kernel& kernel, EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
+                                const WaveInt& level, const CoordinateReading& reading, const WaveFloat& number, WaveInt& drawn) {
+    return with_rule(rule, [&](auto constant) HWY_ATTR {
+        return jitter_axis_as<decltype(constant)::value>(kernel, coordinate, extents, level, reading, number, drawn);
     });
 }
 

@@ -63,6 +63,31 @@ HWY_INLINE V quadratic_spline_offset(V number) {
     return hn::CopySign(hn::IfThenElse(side > hn::Set(d, 1.0f / 3), tail, x), from_middle);
 }
 
+/// The offsets of Mitchell's cubics (texunit/estimator.h), radius 3/2. A side's distribution is s^2*((B/6 + C)*s - C) beyond 1/2, where
+/// s = 3/2 - |x|, and m*x - e*x^3/3 from the middle within, m and m - e/4 being the densities at 0 and at 1/2. Either may be 0, where
+/// Newton's method would stall: both cubics rise, and halving an interval of 1 or 1/2 finds their places to the bits of a number.
+template <class V>
+HWY_NOINLINE V mitchell_offset(double b, double c, V number) {
+    const hn::DFromV<V> d;
+    const V half = hn::Set(d, 0.5f);
+    const V from_middle = hn::Sub(number, half);
+    const V side = hn::Abs(from_middle), outside = hn::Sub(half, side);
+    const auto in_tail = outside < hn::Set(d, float(b / 6));
+    const V tail_cube = hn::Set(d, float(b / 6 + c)), tail_square = hn::Set(d, float(-c));
+    const V middle_cube = hn::Set(d, float((5 * b + 6 * c - 6) / 3)), middle = hn::Set(d, float(1.5 - 0.75 * b - 0.5 * c));
+    const V mass = hn::IfThenElse(in_tail, outside, side);
+    V below = hn::Zero(d);
+    V step = hn::IfThenElse(in_tail, hn::Set(d, 1.0f), half);
+    for (int bit = 0; bit < 25; ++bit) {
+        step = hn::Mul(step, half);
+        const V x = hn::Add(below, step), square = hn::Mul(x, x);
+        const V tail = hn::Mul(square, hn::Add(hn::Mul(tail_cube, x), tail_square));
+        const V within = hn::Mul(x, hn::Add(hn::Mul(middle_cube, square), middle));
+        below = hn::IfThenElse(hn::IfThenElse(in_tail, tail, within) < mass, x, below);
+    }
+    return hn::CopySign(hn::IfThenElse(in_tail, hn::Sub(hn::Set(d, 1.5f), below), below), from_middle);
+}
+
 /// Inverse error function (Giles 2010, "Approximating the erfinv function", single precision) of |x| < 1.
 template <class V>
 HWY_INLINE V inverse_erf(V x) {
@@ -105,8 +130,11 @@ HWY_INLINE V jitter_offset(const Kernel& kernel, V number) {
     switch (kernel.kind) {
         case KernelKind::Bilinear: return hn::Sub(number, hn::Set(d, 0.5f));
         case KernelKind::Quadratic: return tent_offset(number);
-        case KernelKind::BSpline:
-        case KernelKind::Mitchell: return quadratic_spline_offset(number);
+        case KernelKind::BSpline: return quadratic_spline_offset(number);
+        case KernelKind::Mitchell: {
+            if (kernel.b == 1.0f && kernel.c == 0.0f) return quadratic_spline_offset(number);
+            return mitchell_offset(double(kernel.b), double(kernel.c), number);
+        }
         case KernelKind::Gaussian: return hn::Mul(hn::Set(d, kernel.b), normal_offset(number));
         default: assert(kernel.kind == KernelKind::Nearest); return hn::Zero(d);
     }

@@ -30,9 +30,12 @@ std::optional<Estimator> parse_estimator(std::string_view text);
 /// Whether all weights of the kernel are probabilities. Others need two draws, one for either sign.
 bool weighs_as_probability(const Kernel& kernel);
 
-/// Why the estimator cannot draw the kernel, as a clause for people; empty where it can. Only `jitter` refuses: it reaches the kernels that
-/// are a probability density convolved with the texel's box, and knows the inverse distribution of nearest, bilinear, quadratic, bspline
-/// and gaussian.
+/// Why the estimator cannot draw the kernel, as a clause for people; empty where it can. Only `jitter` refuses: it reaches the kernels k
+/// that are a probability density q convolved with the texel's box: nearest, bilinear, quadratic, bspline, gaussian, and those mitchell:B,C
+/// with C <= 0 <= B + 2*C and 3*B + 2*C <= 6. For k'(x) = q(x + 1/2) - q(x - 1/2) leaves one q, the sum of k'(x - 1/2 - j) over j >= 0.
+/// Of Mitchell's cubics it is s*((B/2 + 3*C)*s - 2*C) at s = 3/2 - |x| where |x| > 1/2, and B/2 + C + (6 - 5*B - 6*C)*(1/4 - x^2) within:
+/// nonnegative exactly where they are at s -> 0, at |x| = 1/2 and at x = 0. Besides bspline (1,0) that takes in Hermite's smooth steps
+/// (0,0). gaussian-point ends in steps at 4 sigma, whose offsets have no density.
 std::string_view refusal(Estimator estimator, const Kernel& kernel);
 
 }  // namespace rawtexel::texunit

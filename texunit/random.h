@@ -24,6 +24,8 @@ enum class Dimension : uint32_t {
     NegativeZ = 14,
     NegativeSign = 15,
     LightY = 16,  ///< with Light a point: which texel of a shadow's filter
+    TextureX = 17,
+    TextureY = 18,  ///< where in the pixel textures are looked up, apart from coverage
 };
 
 struct RandomAddress {

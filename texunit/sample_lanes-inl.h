@@ -1,8 +1,8 @@
 // One lookup for a wave on this instruction set, from coordinates to colour: the definitions behind texunit/sample-inl.h.
-#include "texunit/cube-inl.h"
 #include "texunit/elliptical-inl.h"
 #include "texunit/packed_probes-inl.h"
 #include "texunit/sample_levels-inl.h"
+#include "texunit/solid-inl.h"
 
 #include <hwy/highway.h>
 
@@ -74,36 +74,6 @@ HWY_INLINE void fill_inactive(const WaveCoordinates3& at, WaveMask mask, WaveCoo
     }
 }
 
-/// Derivatives along one texture axis that ask for the same level as those of a volume along three: the length of each derivative, or for
-/// LodRule::Exact the longer axis of the ellipse that both span.
-HWY_NOINLINE inline void flatten_derivatives(const LevelTable& table, LodRule rule, const WaveCoordinates3& at, WaveCoordinates& flat) {
-    const FloatTag d;
-    const auto zero = hn::Zero(d), half = hn::Set(d, 0.5f);
-    const float extents[3] = {float(table.width[0]), float(table.height[0]), float(table.depth[0])};
-    const auto width = hn::Set(d, extents[0]), height = hn::Set(d, extents[1]);
-    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        auto xx = zero, xy = zero, yy = zero;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto extent = hn::Set(d, extents[axis]);
-            const auto x = hn::Mul(hn::Load(d, at.dx[axis].lane + i), extent), y = hn::Mul(hn::Load(d, at.dy[axis].lane + i), extent);
-            xx = hn::Add(xx, hn::Mul(x, x));
-            xy = hn::Add(xy, hn::Mul(x, y));
-            yy = hn::Add(yy, hn::Mul(y, y));
-        }
-        auto rho_x = hn::Sqrt(xx), rho_y = hn::Sqrt(yy);
-        if (rule == LodRule::Exact) {
-            // The larger eigenvalue of the derivatives' Gram matrix.
-            const auto middle = hn::Mul(half, hn::Add(xx, yy)), difference = hn::Mul(half, hn::Sub(xx, yy));
-            rho_x = hn::Sqrt(hn::Add(middle, hn::Sqrt(hn::Add(hn::Mul(difference, difference), hn::Mul(xy, xy)))));
-            rho_y = zero;
-        }
-        hn::Store(hn::Div(rho_x, width), d, flat.dudx.lane + i);
-        hn::Store(zero, d, flat.dvdx.lane + i);
-        hn::Store(zero, d, flat.dudy.lane + i);
-        hn::Store(hn::Div(rho_y, height), d, flat.dvdy.lane + i);
-    }
-}
-
 /// Volumes and cube maps are sampled by one isotropic probe.
 HWY_INLINE SamplerState isotropic(SamplerState sampler) {
     sampler.probes = 1;
@@ -135,15 +105,7 @@ HWY_NOINLINE void sample_cube_lanes(Texture& texture, const SamplerState& sample
     fill_inactive(directions, mask, at);
     CubeCoordinates cube;
     project_onto_faces(at, cube);
-    if (layer != nullptr) {
-        const IntTag d;
-        WaveInt first;
-        select_layers(*layer, mask, texture.shape().layers / 6, first);
-        for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-            const auto faces = hn::Mul(hn::Load(d, first.lane + i), hn::Set(d, 6));
-            hn::Store(hn::Add(hn::Load(d, cube.slice.lane + i), faces), d, cube.slice.lane + i);
-        }
-    }
+    if (layer != nullptr) add_cube(*layer, mask, texture.shape().layers / 6, cube.slice);
     const SamplerState state = isotropic(sampler);
     LevelChoice choice;
     choose_levels(texture.levels(), state, cube.face, choice, lod);

@@ -24,16 +24,55 @@ namespace hn = hwy::HWY_NAMESPACE;
 HWY_INLINE bool has_negative_lobes(const SamplerState& sampler) {
     return sampler.ellipse <= 0 && !(weighs_as_probability(sampler.magnify) && weighs_as_probability(sampler.minify));
 }
-HWY_INLINE bool has_negative_lobes(const LookupSet& set) {
-    return std::any_of(set.lookup, set.lookup + set.count, [](const SharedLookup& l) { return has_negative_lobes(*l.sampler); });
+/// A set ready to be drawn from.
+struct DrawnSet {
+    HWY_INLINE explicit DrawnSet(const LookupSet& set) : mask(set.mask), count(set.count) {
+        for (int k = 0; k < count; ++k) {
+            const SharedLookup& from = set.lookup[k];
+            if (HWY_UNLIKELY(from.solid != nullptr || from.layer != nullptr)) {
+                find_place(from, k);
+            } else {
+                lookup[k] = flat_lookup(*from.levels, *from.sampler, *from.at);
+            }
+        }
+    }
+    DrawnSet(const DrawnSet&) = delete;
+
+    const WaveMask mask;
+    const int count;
+    DrawnLookup lookup[kMostSharedLookups];
+
+  private:
+    HWY_NOINLINE void find_place(const SharedLookup& from, int k) {
+        assert(from.solid == nullptr || from.sampler->is_isotropic());
+        if (from.cube) {
+            lookup[k] = cube_lookup(*from.levels, *from.sampler, *from.solid, mask, from.layer, from.layers, solid_[k]);
+        } else if (from.solid != nullptr) {
+            lookup[k] = volume_lookup(*from.levels, *from.sampler, *from.solid, solid_[k]);
+        } else {
+            lookup[k] = flat_lookup(*from.levels, *from.sampler, *from.at);
+            select_layers(*from.layer, mask, from.layers, solid_[k].cube.slice);
+            lookup[k].position.slice = &solid_[k].cube.slice;
+        }
+    }
+
+    SolidCoordinates solid_[kMostSharedLookups];
+};
+
+HWY_INLINE bool has_negative_lobes(const DrawnSet& set) {
+    return std::any_of(set.lookup, set.lookup + set.count, [](const DrawnLookup& l) { return has_negative_lobes(*l.sampler); });
+}
+
+/// A texel of one lookup.
+HWY_INLINE void draw_one(const DrawnSet& set, int k, const DrawNumbers& numbers, Lobes lobes, const LobeMass& mass, TexelDraw& draw) {
+    const DrawnLookup& lookup = set.lookup[k];
+    if (HWY_UNLIKELY(lookup.position.slice != nullptr)) draw.slice = *lookup.position.slice;
+    draw_lanes(lookup, set.mask, numbers, lobes, mass, draw);
 }
 
 /// One texel of each lookup.
-HWY_INLINE void draw_each(const LookupSet& set, const DrawNumbers& numbers, Lobes lobes, const LobeMass& mass, TexelDraw* draw) {
-    for (int k = 0; k < set.count; ++k) {
-        const SharedLookup& lookup = set.lookup[k];
-        draw_lanes(*lookup.levels, *lookup.sampler, *lookup.at, set.mask, numbers, lobes, mass, draw[k]);
-    }
+HWY_INLINE void draw_each(const DrawnSet& set, const DrawNumbers& numbers, Lobes lobes, const LobeMass& mass, TexelDraw* draw) {
+    for (int k = 0; k < set.count; ++k) draw_one(set, k, numbers, lobes, mass, draw[k]);
 }
 
 /// Lane by lane the larger of both.
@@ -44,18 +83,17 @@ HWY_INLINE void keep_larger(const WaveFloat& other, WaveFloat& largest) {
 }
 
 /// A texel of each lookup's positive weights, and the largest mass of negative ones.
-HWY_NOINLINE inline void draw_positive(const LookupSet& set, const DrawNumbers& numbers, TexelDraw* draw, WaveFloat& mass) {
+HWY_NOINLINE inline void draw_positive(const DrawnSet& set, const DrawNumbers& numbers, TexelDraw* draw, WaveFloat& mass) {
     mass = {};
     for (int k = 0; k < set.count; ++k) {
-        const SharedLookup& lookup = set.lookup[k];
         WaveFloat own;
-        draw_lanes(*lookup.levels, *lookup.sampler, *lookup.at, set.mask, numbers, Lobes::Positive, {nullptr, &own}, draw[k]);
+        draw_one(set, k, numbers, Lobes::Positive, {nullptr, &own}, draw[k]);
         keep_larger(own, mass);
     }
 }
 
 /// The largest mass of negative weights at the level and the probe that the numbers choose.
-HWY_INLINE void find_mass(const LookupSet& set, const DrawNumbers& numbers, WaveFloat& mass) {
+HWY_INLINE void find_mass(const DrawnSet& set, const DrawNumbers& numbers, WaveFloat& mass) {
     TexelDraw draw[kMostSharedLookups];
     draw_positive(set, numbers, draw, mass);
 }
@@ -78,7 +116,8 @@ HWY_INLINE void set_weight(const WaveFloat& value, float addend, float factor, W
 
 /// use(tap) of one draw.
 template <class Use>
-HWY_INLINE void draw_set(const LookupSet& set, const DrawNumbers& positive, const DrawNumbers& negative, const Use& use) {
+HWY_INLINE void draw_set(const LookupSet& lookups, const DrawNumbers& positive, const DrawNumbers& negative, const Use& use) {
+    const DrawnSet set(lookups);
     SharedTap tap;
     tap.lanes = set.mask;
     if (!has_negative_lobes(set)) {
@@ -89,8 +128,7 @@ HWY_INLINE void draw_set(const LookupSet& set, const DrawNumbers& positive, cons
     WaveFloat mass;
     if (set.lookup[0].sampler->estimator == Estimator::AbsWeight) {
         draw_each(set, positive, Lobes::Magnitude, {}, tap.draw);
-        const SharedLookup& first = set.lookup[0];
-        draw_lanes(*first.levels, *first.sampler, *first.at, set.mask, positive, Lobes::Magnitude, {nullptr, &tap.weight}, tap.draw[0]);
+        draw_one(set, 0, positive, Lobes::Magnitude, {nullptr, &tap.weight}, tap.draw[0]);
         return use(tap);
     }
     draw_positive(set, positive, tap.draw, mass);
@@ -127,15 +165,16 @@ HWY_INLINE void step_probes(const SamplerState& sampler, const ProbeChoice& prob
 
 HWY_INLINE void step_signs(const SignedTaps& taps, Lobes lobes, const WaveFloat* wanted, WaveMask mask, NumberCells& cells) {
     const FloatTag d;
-    WaveFloat share[kSignPairs];
+    WaveFloat share[kVolumePatterns];
+    const int count = sign_patterns(taps);
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
         const SignShares shares = sign_shares(taps, lobes, wanted, i);
-        for (int pair = 0; pair < kSignPairs; ++pair) hn::Store(shares.share[pair], d, share[pair].lane + i);
+        for (int n = 0; n < count; ++n) hn::Store(shares.share[n], d, share[n].lane + i);
     }
     for (WaveMask rest = mask; rest != 0; rest &= rest - 1) {
         const auto lane = int(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest));
         float before = 0;
-        for (int pair = 0; pair + 1 < kSignPairs; ++pair) cells.add_step(lane, before += share[pair][lane]);
+        for (int n = 0; n + 1 < count; ++n) cells.add_step(lane, before += share[n][lane]);
     }
 }
 
@@ -157,18 +196,18 @@ HWY_INLINE void step_axis(const AxisTaps& taps, const Probabilities& probabiliti
 
 /// What enumeration goes by.
 struct Enumeration {
-    const LookupSet& set;
+    const DrawnSet& set;
     Lobes lobes;
     WaveFloat mass{};  ///< of the negative weights, which follows from level and probe alone: both draws share those
 };
 
 /// act(lookup, kernel, lanes) for both kernels of each lookup's sampler, where `lanes` use them; `place` of the numbers chosen so far.
 template <class Act>
-HWY_INLINE void for_each_kernel(const LookupSet& set, const DrawNumbers& numbers, const Act& act) {
+HWY_INLINE void for_each_kernel(const DrawnSet& set, const DrawNumbers& numbers, const Act& act) {
     for (int k = 0; k < set.count; ++k) {
-        const SharedLookup& lookup = set.lookup[k];
+        const DrawnLookup& lookup = set.lookup[k];
         DrawnPlace place;
-        draw_place(*lookup.levels, *lookup.sampler, *lookup.at, numbers, place);
+        draw_place(lookup, numbers, place);
         const WaveMask magnified = place.choice.magnify & set.mask, minified = set.mask & ~magnified;
         if (magnified != 0) act(lookup, lookup.sampler->magnify, place, magnified);
         if (minified != 0) act(lookup, lookup.sampler->minify, place, minified);
@@ -178,9 +217,9 @@ HWY_INLINE void for_each_kernel(const LookupSet& set, const DrawNumbers& numbers
 HWY_NOINLINE inline void find_level_cells(const Enumeration& e, const DrawNumbers& numbers, NumberCells& cells) {
     cells.clear();
     for (int k = 0; k < e.set.count; ++k) {
-        const SharedLookup& lookup = e.set.lookup[k];
+        const DrawnLookup& lookup = e.set.lookup[k];
         DrawnPlace place;
-        draw_place(*lookup.levels, *lookup.sampler, *lookup.at, numbers, place);
+        draw_place(lookup, numbers, place);
         step_levels(place.choice, e.set.mask, cells);
     }
     cells.finish();
@@ -189,7 +228,7 @@ HWY_NOINLINE inline void find_level_cells(const Enumeration& e, const DrawNumber
 HWY_NOINLINE inline void find_probe_cells(const Enumeration& e, NumberCells& cells) {
     cells.clear();
     for (int k = 0; k < e.set.count; ++k) {
-        const SharedLookup& lookup = e.set.lookup[k];
+        const DrawnLookup& lookup = e.set.lookup[k];
         if (lookup.sampler->is_isotropic()) continue;
         LevelChoice choice;
         ProbeChoice probes;
@@ -201,35 +240,53 @@ HWY_NOINLINE inline void find_probe_cells(const Enumeration& e, NumberCells& cel
 
 HWY_NOINLINE inline void find_sign_cells(const Enumeration& e, const DrawNumbers& numbers, NumberCells& cells) {
     cells.clear();
-    for_each_kernel(e.set, numbers,
-                    [&](const SharedLookup& lookup, const Kernel& kernel, const DrawnPlace& place, WaveMask lanes) HWY_ATTR {
-                        if (weighs_as_probability(kernel)) return;
-                        SignedTaps taps;
-                        select_signed_axes(*lookup.levels, *lookup.sampler, kernel, place, taps);
-                        step_signs(taps, e.lobes, &e.mass, lanes, cells);
-                    });
+    for_each_kernel(e.set, numbers, [&](const DrawnLookup& lookup, const Kernel& kernel, const DrawnPlace& place, WaveMask lanes) HWY_ATTR {
+        if (weighs_as_probability(kernel)) return;
+        SignedTaps taps;
+        select_signed_axes(lookup, kernel, place, taps);
+        step_signs(taps, e.lobes, &e.mass, lanes, cells);
+    });
     cells.finish();
 }
 
-HWY_NOINLINE inline void find_texel_cells(const Enumeration& e, const DrawNumbers& numbers, NumberCells& columns, NumberCells& rows) {
-    columns.clear();
-    rows.clear();
-    for_each_kernel(e.set, numbers,
-                    [&](const SharedLookup& lookup, const Kernel& kernel, const DrawnPlace& place, WaveMask lanes) HWY_ATTR {
-                        SignedTaps taps;
-                        if (weighs_as_probability(kernel)) {
-                            select_axes(*lookup.levels, *lookup.sampler, kernel, place, taps.x, taps.y);
-                            step_axis(taps.x, AsProbabilities(), lanes, columns);
-                            step_axis(taps.y, AsProbabilities(), lanes, rows);
-                            return;
-                        }
-                        select_signed_axes(*lookup.levels, *lookup.sampler, kernel, place, taps);
-                        const DrawnSigns signs = draw_signs(taps, e.lobes, {&e.mass, nullptr}, numbers.sign);
-                        step_axis(taps.x, OfOneSign(taps.sums_x, signs.negative_x), lanes, columns);
-                        step_axis(taps.y, OfOneSign(taps.sums_y, signs.negative_y), lanes, rows);
-                    });
-    columns.finish();
-    rows.finish();
+/// Cells of the numbers that choose a texel along each axis.
+struct TexelCells {
+    NumberCells x, y, z;
+};
+
+/// Beyond a cube map's corner one texel of three is drawn.
+HWY_INLINE void step_corners(const TextureTaps& taps, WaveMask mask, NumberCells& cells) {
+    const auto leaving = [](const AxisTaps& axis) {
+        WaveMask lanes = 0;
+        for (int k = 0; k < axis.count; ++k) lanes |= axis.outside[k];
+        return lanes;
+    };
+    for (WaveMask rest = mask & leaving(taps.x) & leaving(taps.y); rest != 0; rest &= rest - 1) {
+        const auto lane = int(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest));
+        cells.add_step(lane, 1.0f / 3);
+        cells.add_step(lane, 2.0f / 3);
+    }
+}
+
+HWY_NOINLINE inline void find_texel_cells(const Enumeration& e, const DrawNumbers& numbers, TexelCells& cells) {
+    for (NumberCells* axis : {&cells.x, &cells.y, &cells.z}) axis->clear();
+    for_each_kernel(e.set, numbers, [&](const DrawnLookup& lookup, const Kernel& kernel, const DrawnPlace& place, WaveMask lanes) HWY_ATTR {
+        SignedTaps taps;
+        if (weighs_as_probability(kernel)) {
+            select_axes(lookup, kernel, place, taps);
+            step_axis(taps.x, AsProbabilities(), lanes, cells.x);
+            step_axis(taps.y, AsProbabilities(), lanes, cells.y);
+            if (taps.volume) step_axis(taps.z, AsProbabilities(), lanes, cells.z);
+        } else {
+            select_signed_axes(lookup, kernel, place, taps);
+            const DrawnSigns signs = draw_signs(taps, e.lobes, {&e.mass, nullptr}, numbers.sign);
+            step_axis(taps.x, OfOneSign(taps.sums_x, signs.negative_x), lanes, cells.x);
+            step_axis(taps.y, OfOneSign(taps.sums_y, signs.negative_y), lanes, cells.y);
+            if (taps.volume) step_axis(taps.z, OfOneSign(taps.sums_z, signs.negative_z), lanes, cells.z);
+        }
+        if (place.position.cube()) step_corners(taps, lanes, cells.z);
+    });
+    for (NumberCells* axis : {&cells.x, &cells.y, &cells.z}) axis->finish();
 }
 
 HWY_INLINE void multiply(const WaveFloat& a, const WaveFloat& b, WaveFloat& product) {
@@ -243,9 +300,10 @@ HWY_INLINE void multiply(const WaveFloat& a, const WaveFloat& b, WaveFloat& prod
 template <class Use>
 HWY_INLINE void for_each_cell(Enumeration& e, const Use& use) {
     const bool is_signed = has_negative_lobes(e.set);
-    NumberCells levels, probes, signs, columns, rows;
+    NumberCells levels, probes, signs;
+    TexelCells texels;
     DrawNumbers numbers{};
-    WaveFloat level_volume, probe_volume, sign_volume, row_volume, volume, length;
+    WaveFloat level_volume, probe_volume, sign_volume, slice_volume, row_volume, volume, length;
     find_level_cells(e, numbers, levels);
     for (int l = 0; l < levels.count(); ++l) {
         levels.take(l, numbers.level, level_volume);
@@ -258,15 +316,19 @@ HWY_INLINE void for_each_cell(Enumeration& e, const Use& use) {
             for (int s = 0; s < signs.count(); ++s) {
                 signs.take(s, numbers.sign, length);
                 multiply(probe_volume, length, sign_volume);
-                find_texel_cells(e, numbers, columns, rows);
-                for (int y = 0; y < rows.count(); ++y) {
-                    rows.take(y, numbers.y, length);
-                    multiply(sign_volume, length, row_volume);
-                    for (int x = 0; x < columns.count(); ++x) {
-                        columns.take(x, numbers.x, length);
-                        multiply(row_volume, length, volume);
-                        const WaveMask lanes = e.set.mask & lanes_above_zero(volume);
-                        if (lanes != 0) use(numbers, volume, lanes);
+                find_texel_cells(e, numbers, texels);
+                for (int z = 0; z < texels.z.count(); ++z) {
+                    texels.z.take(z, numbers.z, length);
+                    multiply(sign_volume, length, slice_volume);
+                    for (int y = 0; y < texels.y.count(); ++y) {
+                        texels.y.take(y, numbers.y, length);
+                        multiply(slice_volume, length, row_volume);
+                        for (int x = 0; x < texels.x.count(); ++x) {
+                            texels.x.take(x, numbers.x, length);
+                            multiply(row_volume, length, volume);
+                            const WaveMask lanes = e.set.mask & lanes_above_zero(volume);
+                            if (lanes != 0) use(numbers, volume, lanes);
+                        }
                     }
                 }
             }
@@ -276,16 +338,17 @@ HWY_INLINE void for_each_cell(Enumeration& e, const Use& use) {
 
 /// The texels of a set's only lookup, an ellipse; one after the other in each lane.
 template <class Use>
-HWY_INLINE void enumerate_ellipse(const LookupSet& set, const Use& use) {
-    const SharedLookup& lookup = set.lookup[0];
+HWY_INLINE void enumerate_ellipse(const DrawnSet& set, const Use& use) {
+    const DrawnLookup& lookup = set.lookup[0];
     SamplerState state = *lookup.sampler;
     state.hybrid_bias = std::numeric_limits<float>::infinity();
+    SharedTap tap;
+    if (lookup.position.slice != nullptr) tap.draw[0].slice = *lookup.position.slice;
     for (WaveMask rest = set.mask; rest != 0; rest &= rest - 1) {
         const auto lane = int(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest));
         const EllipseLookup at = ellipse_lookup(*lookup.at, lane);
         double sum = 0;
         for_each_ellipse_texel(*lookup.levels, state, at, [&](const EllipseChunk&, int, float weight) { sum += double(weight); });
-        SharedTap tap;
         tap.lanes = WaveMask{1} << lane;
         tap.weight = {};
         for_each_ellipse_texel(*lookup.levels, state, at, [&](const EllipseChunk& chunk, int slot, float weight) HWY_ATTR {
@@ -303,8 +366,9 @@ HWY_INLINE void enumerate_ellipse(const LookupSet& set, const Use& use) {
 
 /// use(tap) of every tuple.
 template <class Use>
-HWY_INLINE void enumerate_set(const LookupSet& set, const Use& use) {
-    assert(can_enumerate(set));
+HWY_INLINE void enumerate_set(const LookupSet& lookups, const Use& use) {
+    assert(can_enumerate(lookups));
+    const DrawnSet set(lookups);
     if (set.lookup[0].sampler->ellipse > 0) return enumerate_ellipse(set, use);
     SharedTap tap;
     for (const Lobes lobes : {Lobes::Positive, Lobes::Negative}) {

@@ -2,7 +2,9 @@
 
 #include "cli/counters.h"
 #include "cli/option_values.h"
+#include "cli/reports/kernel_plot.h"
 #include "scenes/builtin.h"
+#include "scenes/output_file.h"
 #include "shading/baseline.h"
 #include "texunit/estimator.h"
 #include "texunit/format.h"
@@ -50,6 +52,12 @@ Entries entries_for(const std::string& subject) {
     }
 }
 
+std::vector<texunit::Kernel> default_kernels() {
+    std::vector<texunit::Kernel> kernels;
+    for (const texunit::KernelInfo& kernel : texunit::all_kernels()) kernels.push_back(*texunit::parse_kernel(kernel.name));
+    return kernels;
+}
+
 std::string print_json(const Entries& entries) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Entry& entry : entries) list.push_back({{"name", entry.name}, {"description", entry.description}});
@@ -70,7 +78,9 @@ std::string print_lines(const Entries& entries) {
 class ListCommand : public Command {
   public:
     std::string_view name() const override { return "list"; }
-    std::string_view usage() const override { return "list scenes|filters|estimators|noises|baselines|formats|counters [--json]"; }
+    std::string_view usage() const override {
+        return "list scenes|filters|estimators|noises|baselines|formats|counters [--json] [--plot FILE.svg]";
+    }
     std::string_view summary() const override {
         return "Lists built-in scenes, texture filters, estimators, noises, baselines, texel formats or counters, one a line.";
     }
@@ -78,16 +88,27 @@ class ListCommand : public Command {
     void declare(CommandLine& line) override {
         line.arguments("SUBJECT", "scenes, filters, estimators, noises, baselines, formats or counters", 1, 1, words_);
         line.flag("--json", "an array of objects with \"name\" and \"description\"", json_);
+        line.option("--plot", "FILE.svg", "of filters: draws what every kernel weighs along an axis",
+                    [&](const std::string& text) { plot_ = text; });
     }
 
     int run(const Invocation& invocation) override {
         const Entries entries = entries_for(words_[0]);
+        if (!plot_.empty()) write_plot();
         invocation.out << (json_ ? print_json(entries) : print_lines(entries));
         return kDone;
     }
 
   private:
+    void write_plot() const {
+        if (words_[0] != "filters") throw UsageError("--plot: " + words_[0] + " have no plot (allowed: list filters)");
+        if (!plot_.ends_with(".svg")) throw UsageError("--plot: '" + plot_ + "' does not end with .svg");
+        const std::string svg = plot_svg(kernel_plot(default_kernels()));
+        scenes::write_file(plot_, std::as_bytes(std::span(svg)));
+    }
+
     std::vector<std::string> words_;
+    std::string plot_;
     bool json_ = false;
 };
 

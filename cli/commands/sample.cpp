@@ -2,6 +2,7 @@
 
 #include "cli/lookup_report.h"
 #include "cli/sample_request.h"
+#include "texunit/draw_trace.h"
 #include "texunit/lookup_trace.h"
 
 namespace rawtexel::cli {
@@ -31,6 +32,18 @@ void check_wraps(const std::string& name, CoordinateKind kind, const SamplerStat
     if (request.border && !bordered) throw UsageError("--border without --wrap border: no axis has a border");
 }
 
+texunit::DrawTrace draw_place(Texture& texture, const SamplerState& sampler, const LookupPlace& place, int layer,
+                              const texunit::DrawSource& source) {
+    const auto [dx, dy] = place.derivatives.value_or(Derivatives{});
+    const auto& at = place.at;
+    switch (coordinate_kind(texture.shape())) {
+        case CoordinateKind::Uvw: return trace_volume_draws(texture, sampler, {at, dx, dy}, source);
+        case CoordinateKind::Direction: return trace_cube_draws(texture, sampler, {at, dx, dy}, source, float(layer));
+        case CoordinateKind::Uv: break;
+    }
+    return trace_draws(texture, sampler, {at[0], at[1], dx[0], dx[1], dy[0], dy[1]}, source, float(layer));
+}
+
 /// Throws UsageError where the options ask for what a texture of this shape does not have.
 void check_shape(const std::string& name, const Shape& shape, const SampleRequest& request) {
     const CoordinateKind given = request.coordinates->kind, needed = coordinate_kind(shape);
@@ -56,17 +69,17 @@ class SampleCommand : public Command {
     std::string_view name() const override { return "sample"; }
     std::string_view usage() const override { return "sample TEXTURE --uv U,V [--ddx A,B --ddy C,D | --lod L] [options]"; }
     std::string_view summary() const override {
-        return "Explains one texture lookup: its level of detail, every texel that it weighs, and the result, in linear RGBA. Derivatives "
-               "are those of the coordinates over one pixel.";
+        return "Explains one texture lookup: its level of detail, every texel that it weighs or the one that it draws, and the result, in "
+               "linear RGBA. Derivatives are those of the coordinates over one pixel.";
     }
 
     void declare(CommandLine& line) override {
         line.arguments("TEXTURE", "a .dds or .ktx2 file, or any image", 1, 1, words_);
-        line.flag(
-            "--json",
-            "one JSON object instead of a table: \"lod\", \"anisotropy\", \"precision\", \"taps\" and \"result\"; with @FILE one a line, "
-            "always",
-            json_);
+        line.flag("--json",
+                  "one JSON object instead of a table: \"lod\", \"anisotropy\", \"precision\", \"taps\" and \"result\", and \"estimator\" "
+                  "where it "
+                  "draws; with @FILE one a line, always",
+                  json_);
         declare_sample_request(line, request_);
     }
 
@@ -77,9 +90,12 @@ class SampleCommand : public Command {
         Texture texture(words_[0], std::move(file.source), {.mip_storage = request_.lookup.mip_storage});
         const SamplerState sampler = make_sampler(request_);
         const bool many = !request_.coordinates->file.empty();
-        for (const LookupPlace& place : places) {
+        for (size_t n = 0; n < places.size(); ++n) {
+            const LookupPlace& place = places[n];
             const LookupTrace trace = trace_place(texture, sampler, place, request_.layer);
-            const ReportedLookup lookup{texture, sampler, place, trace};
+            texunit::DrawTrace drawn;
+            if (request_.is_drawn()) drawn = draw_place(texture, sampler, place, request_.layer, make_draw_source(request_, n));
+            const ReportedLookup lookup{texture, sampler, place, trace, request_.is_drawn() ? &drawn : nullptr};
             invocation.out << (json_ || many ? lookup_json(lookup) : lookup_table(lookup));
         }
         return kDone;

@@ -2,6 +2,7 @@
 #include "cli/command.h"
 #include "scenes/image_io.h"
 #include "tests/cli/program_runner.h"
+#include "texunit/random.h"
 
 #include <gtest/gtest.h>
 
@@ -332,6 +333,36 @@ TEST_F(ExplainTest, AsksForAsManyTapsAsRenderCounts) {
         EXPECT_EQ(counted["taps"].get<size_t>(), taps);
         EXPECT_GT(taps, 0u);
     }
+}
+
+TEST(ExplainNumbers, AreThoseOfTheirAddresses) {
+    using texunit::Dimension;
+    const auto random_of = [](const char* scene, const char* pixel, const Words& more) {
+        const test::Outcome outcome = run(
+            joined({"explain", scene, "--json", "--size", "96x54", "--pixel", pixel, "--sample", "3", "--spp", "4", "--seed", "5"}, more));
+        EXPECT_EQ(outcome.code, kDone) << outcome.err;
+        const Json json = Json::parse(outcome.out);
+        return json["samples"][0]["surface"].value("random", Json());
+    };
+    const auto expect = [](const Json& random, const char* name, uint32_t x, uint32_t y, Dimension dimension) {
+        const float number = texunit::random_float({.x = x, .y = y, .sample = 3, .dimension = dimension, .seed = 5});
+        EXPECT_EQ(random.value(name, -1.0f), number) << name;
+    };
+    const Json stone = random_of("triplanar", "58,30",
+                                 {"--estimator", "reservoir", "--shadow-taps", "one", "--mip", "none", "--texture-jitter", "perspective"});
+    EXPECT_EQ(stone.size(), 5u) << stone;
+    expect(stone, "plane", 58, 30, Dimension::Plane);
+    expect(stone, "light", 58, 30, Dimension::Light);
+    expect(stone, "light y", 58, 30, Dimension::LightY);
+    expect(stone, "texture x", 58, 30, Dimension::TextureX);
+    expect(stone, "texture y", 58, 30, Dimension::TextureY);
+    const Json ground = random_of("layers", "48,40", {"--blend", "draw"});
+    EXPECT_EQ(ground.size(), 1u) << ground;
+    expect(ground, "layer", 48, 40, Dimension::Layer);
+    const Json level = random_of("plane", "48,40", {"--baseline", "oiio-stochastic"});
+    EXPECT_EQ(level.size(), 1u) << level;
+    expect(level, "level", 48, 40, Dimension::Level);
+    EXPECT_TRUE(random_of("plane", "48,40", {}).is_null());
 }
 
 TEST_F(ExplainTest, TellsHundredsOfSamples) {

@@ -85,10 +85,11 @@ TEST(LookupOptions, ChoicesAreToldAsTheyAreSpelled) {
     lookup.filtering.noise = texunit::Noise::Stbn;
     std::string told;
     for (const auto& [name, choice] : print_choices(lookup)) told += name + "=" + choice + " ";
-    EXPECT_EQ(told,
-              "filter=gaussian:0.8 mip=scene aniso=8:0.25 ewa=none lod-rule=exact lod-bias=-0.5 derivatives=analytic footprint=pixel "
-              "hybrid-bias=none estimator=reservoir draws=3 order=after random=shared blend=draw shadow-taps=all noise=stbn "
-              "signed-numbers=independent baseline=none precision=gpu mip-storage=source bc-rounding=nvidia ");
+    EXPECT_EQ(
+        told,
+        "filter=gaussian:0.8 mip=scene aniso=8:0.25 ewa=none lod-rule=exact lod-bias=-0.5 derivatives=analytic footprint=pixel "
+        "hybrid-bias=none estimator=reservoir draws=3 order=after random=shared blend=draw shadow-taps=all "
+        "texture-jitter=none noise=stbn signed-numbers=independent baseline=none precision=gpu mip-storage=source bc-rounding=nvidia ");
 }
 
 /// The quad's image at 40x40 pixels, some 0.6 pixels a texel, its edges out of sight.
@@ -136,6 +137,7 @@ TEST(LookupOptions, ANoiseIsRefusedWhereNothingDraws) {
     for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--baseline", "ue-dither"}})
         EXPECT_EQ(test::why_not_failed(with(more), kWrongUsage, "noise blue: nothing draws"), "");
     for (const std::vector<std::string>& more : {std::vector<std::string>{"--estimator", "reservoir"},
+                                                 {"--texture-jitter", "affine", "--mip", "none"},
                                                  {"--shadow-taps", "one"},
                                                  {"--blend", "draw"},
                                                  {"--baseline", "oiio-stochastic"}})

@@ -136,6 +136,39 @@ TEST(Interpolation, EqualsQuadruplePrecisionOnClippedTriangles) {
     record(worst);
 }
 
+/// On whole and clipped triangles; where the step leads past the horizon there is nothing to compare with.
+TEST(Interpolation, StepsInPerspectiveLeadToTheWeightsThere) {
+    std::mt19937 random(5);
+    Mesh mesh;
+    for (int i = 0; i < 400; ++i) {
+        const auto corner = [&] { return 8.0f * glm::vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -2.0f, 0.2f)); };
+        mesh.add(corner(), corner(), corner());
+    }
+    const Draw draw = mesh.draw(perspective(0.9f, 1, 0.05f));
+    const Frame frame(frame_options(), {&draw, 1});
+    ASSERT_GT(frame.counts().clipped, 50u);
+    double worst = 0;
+    int steps = 0, bent = 0;
+    for_covered_samples(frame, 5, [&](const SetupTriangle& triangle, double x, double y) {
+        const double jx = uniform(random, -1.5f, 1.5f), jy = uniform(random, -1.5f, 1.5f);
+        const Barycentrics from = barycentrics(triangle, x, y), to = barycentrics(triangle, x + jx, y + jy);
+        const PerspectiveSlope slope = perspective_slope(triangle, x, y);
+        const double ratio = 1.0 + slope.dx * jx + slope.dy * jy;
+        EXPECT_NEAR(ratio, to.inverse_w / from.inverse_w, 1e-9 * std::max(1.0, std::abs(ratio)));
+        if (ratio < 0.05) return;
+        const double b1 = from.b1 + (from.db1_dx * jx + from.db1_dy * jy) / ratio,
+                     b2 = from.b2 + (from.db2_dx * jx + from.db2_dy * jy) / ratio;
+        worst =
+            std::max({worst, std::abs(b1 - to.b1) / std::max(1.0, std::abs(to.b1)), std::abs(b2 - to.b2) / std::max(1.0, std::abs(to.b2))});
+        ++steps;
+        bent += std::abs(ratio - 1.0) > 0.05;
+    });
+    EXPECT_LE(worst, 1e-11);
+    EXPECT_GT(steps, 3000);
+    EXPECT_GT(bent, 100);
+    RecordProperty("worst_step", ::testing::PrintToString(worst));
+}
+
 TEST(Interpolation, GivesSnappedVerticesTheirOwnAttributes) {
     const MixedScene scene(3);
     const Frame frame(frame_options(), scene.draws);

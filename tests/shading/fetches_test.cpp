@@ -215,11 +215,16 @@ TEST_F(FetchesTest, ComeFromTheCoordinatesThatTheFrameLooksUp) {
         material.base_color = glm::vec4(1.0f, 1.0f, 1.0f, material.base_color.a);
     }
     for (Mesh& mesh : scene.meshes) mesh.colors.clear();
-    for (const PixelJitter jitter : {PixelJitter::Frame, PixelJitter::Pixel}) {
+    const std::pair<PixelJitter, TextureJitter> jitters[] = {{PixelJitter::Frame, TextureJitter::None},
+                                                             {PixelJitter::Pixel, TextureJitter::None},
+                                                             {PixelJitter::Frame, TextureJitter::Perspective},
+                                                             {PixelJitter::Pixel, TextureJitter::Affine}};
+    for (const auto& [jitter, texture_jitter] : jitters) {
         RenderOptions options = busy_options();
         options.fetches = {};
         options.spp = 1;
         options.pixel_jitter = jitter;
+        options.filtering.texture_jitter = texture_jitter;
         options.background = glm::vec3(0.0f);
         Relooker listener(options.width, options.height);
         options.listener = &listener;

@@ -16,8 +16,11 @@
 namespace rawtexel::texunit {
 namespace {
 
-const Kernel kJitteredKernels[] = {Kernel::Nearest,        Kernel::Bilinear,       Kernel::Quadratic,      Kernel::BSpline,
-                                   Kernel::mitchell(1, 0), Kernel::gaussian(0.3f), Kernel::gaussian(0.5f), Kernel::gaussian(2.5f)};
+/// Of Mitchell's cubics one inside the region of densities and its corners: (0,0), (2,0) and (3,-1.5).
+const Kernel kJitteredKernels[] = {Kernel::Nearest,        Kernel::Bilinear,           Kernel::Quadratic,
+                                   Kernel::BSpline,        Kernel::mitchell(1, 0),     Kernel::mitchell(0, 0),
+                                   Kernel::mitchell(2, 0), Kernel::mitchell(3, -1.5f), Kernel::mitchell(1, -0.3f),
+                                   Kernel::gaussian(0.3f), Kernel::gaussian(0.5f),     Kernel::gaussian(2.5f)};
 
 SamplerState jittered(const Kernel& kernel, MipMode mip = MipMode::None) {
     SamplerState sampler{.magnify = kernel, .minify = kernel, .mip = mip};
@@ -38,16 +41,61 @@ TEST(Estimator, KnowsWhichKernelsAreProbabilities) {
     for (const Kernel& kernel :
          {Kernel::Nearest, Kernel::Bilinear, Kernel::Quadratic, Kernel::BSpline, Kernel::gaussian(), Kernel::mitchell(1, 0)})
         EXPECT_TRUE(weighs_as_probability(kernel)) << to_string(kernel);
-    for (const Kernel& kernel : {Kernel::mitchell(), Kernel::CatmullRom, Kernel::Lanczos2, Kernel::Lanczos3})
+    for (const Kernel& kernel : {Kernel::mitchell(), Kernel::mitchell(-0.1f, 0), Kernel::mitchell(1, 0.1f), Kernel::CatmullRom,
+                                 Kernel::Lanczos2, Kernel::Lanczos3})
         EXPECT_FALSE(weighs_as_probability(kernel)) << to_string(kernel);
 }
 
 TEST(Estimator, JitterRefusesWhatIsNoDensityConvolvedWithABox) {
     for (const Kernel& kernel : kJitteredKernels) EXPECT_EQ(refusal(Estimator::Jitter, kernel), "") << to_string(kernel);
-    for (const Kernel& kernel : {Kernel::mitchell(), Kernel::CatmullRom, Kernel::Lanczos2, Kernel::Lanczos3, Kernel::gaussian_point()}) {
+    for (const Kernel& kernel : {Kernel::mitchell(), Kernel::mitchell(2.5f, 0), Kernel::mitchell(1, -0.6f), Kernel::CatmullRom,
+                                 Kernel::Lanczos2, Kernel::Lanczos3, Kernel::gaussian_point()}) {
         EXPECT_NE(refusal(Estimator::Jitter, kernel), "") << to_string(kernel);
         EXPECT_EQ(refusal(Estimator::Reservoir, kernel), "") << to_string(kernel);
     }
+}
+
+/// The density whose convolution with a box is Mitchell's kernel: what is left of its slope when those before are taken along.
+double offset_density(double b, double c, double x) {
+    double density = 0;
+    for (int j = 0; j < 4; ++j) {
+        const double at = x - 0.5 - j, r = std::abs(at);
+        if (r >= 2) continue;
+        const double slope = r < 1 ? (12 - 9 * b - 6 * c) * r * r / 2 + (-18 + 12 * b + 6 * c) * r / 3
+                                   : (-b - 6 * c) * r * r / 2 + (6 * b + 30 * c) * r / 3 + (-12 * b - 48 * c) / 6;
+        density += at < 0 ? -slope : slope;
+    }
+    return density;
+}
+
+/// Jitter draws a cubic of Mitchell's exactly where the density of its offsets is nowhere negative; where the kernel is, it says so.
+TEST(Estimator, JitterTakesTheCubicsWhoseOffsetsHaveADensity) {
+    int taken = 0, nonnegative = 0;
+    for (int i = -8; i <= 40; ++i) {
+        for (int j = -24; j <= 12; ++j) {
+            // Beside the region's borders, which cross the grid's points.
+            const double b = i / 10.0 + 0.013, c = j / 10.0 + 0.0071;
+            double least_density = 0, least_weight = 0;  // the latter times 6
+            for (int n = -300; n <= 300; ++n) {
+                const double x = n / 200.0;
+                least_density = std::min(least_density, offset_density(b, c, x));
+                const double r = (x + 1.5) * 2 / 3, within = (12 - 9 * b - 6 * c) * r * r * r + (-18 + 12 * b + 6 * c) * r * r + 6 - 2 * b;
+                const double beyond = (-b - 6 * c) * r * r * r + (6 * b + 30 * c) * r * r + (-12 * b - 48 * c) * r + 8 * b + 24 * c;
+                least_weight = std::min(least_weight, r < 1 ? within : beyond);
+            }
+            const Kernel kernel = Kernel::mitchell(float(b), float(c));
+            if (least_density > -1e-3 && least_density < 0) continue;
+            EXPECT_EQ(refusal(Estimator::Jitter, kernel).empty(), least_density == 0)
+                << to_string(kernel) << " least density " << least_density;
+            taken += least_density == 0;
+            if (least_weight > -1e-3 && least_weight < -1e-12) continue;
+            EXPECT_EQ(weighs_as_probability(kernel), least_weight >= -1e-12) << to_string(kernel) << " least weight " << least_weight;
+            nonnegative += least_weight >= -1e-12;
+        }
+    }
+    std::printf("%d cubics are convolved, %d nonnegative\n", taken, nonnegative);
+    EXPECT_GT(taken, 100);
+    EXPECT_GT(nonnegative, taken);
 }
 
 /// Probabilities of the texels along x at one place, exact but for the numbers' grid of 2^-24: the texel rises with the number, so the

@@ -1,0 +1,39 @@
+// Line plots as SVG: axes with units, a legend that names the series, colours that colour-blind readers tell apart, dashes for print.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace rawtexel::cli {
+
+struct PlotPoint {
+    double x = 0, y = 0;
+};
+
+struct PlotSeries {
+    std::string name;  ///< in the legend
+    std::vector<PlotPoint>
+        points;            ///< joined in this order; those that are not finite, or not above 0 on a logarithmic axis, break the line
+    bool markers = false;  ///< on every point
+};
+
+struct PlotAxis {
+    std::string label;  ///< with its unit
+    bool logarithmic = false;
+};
+
+struct Plot {
+    std::string title;
+    PlotAxis x, y;
+    std::vector<PlotSeries> series;
+};
+
+/// A whole SVG document of 720x420 units, with no part outside of it. Axes span the points, up to round numbers.
+std::string plot_svg(const Plot& plot);
+
+/// Where an axis has ticks, from the first at or below `least` to the last at or above `most`: multiples of 1, 2 or 5 times a power of ten,
+/// at most some ten of them; of a logarithmic axis powers of ten, or 1, 2 and 5 times these where it spans few. A span of nothing is
+/// widened.
+std::vector<double> axis_ticks(double least, double most, bool logarithmic);
+
+}  // namespace rawtexel::cli
