@@ -286,8 +286,8 @@ void settle(RenderRequest& request) {
     check_view(request.view);
     check_baseline(request.lookup);
     check_filtering(request.lookup.filtering, request.lookup.filter);
-    check_lookup(request.lookup);
     check_texture_jitter(request.lookup);
+    check_lookup(request.lookup);
     if (request.light.peer_shading) preset_peer_shading(request);
     if (request.samples.reference) preset_reference(request);
 }

@@ -137,6 +137,7 @@ TEST(LookupOptions, ANoiseIsRefusedWhereNothingDraws) {
     for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--baseline", "ue-dither"}})
         EXPECT_EQ(test::why_not_failed(with(more), kWrongUsage, "noise blue: nothing draws"), "");
     for (const std::vector<std::string>& more : {std::vector<std::string>{"--estimator", "reservoir"},
+                                                 {"--texture-jitter", "affine", "--mip", "none"},
                                                  {"--shadow-taps", "one"},
                                                  {"--blend", "draw"},
                                                  {"--baseline", "oiio-stochastic"}})
