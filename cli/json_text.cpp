@@ -3,6 +3,8 @@
 #include "scenes/image_io.h"
 #include "scenes/load.h"
 
+#include <nlohmann/json.hpp>
+
 #include <vector>
 
 namespace rawtexel::cli {

@@ -1,7 +1,7 @@
 // Small JSON files that a user hands in: read whole, bounded in size and depth.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <string_view>

@@ -16,6 +16,11 @@ target_compile_options(rawtexel_warnings INTERFACE -Wall -Wextra -Wshadow -Wconv
   # g++ 12 reports the deliberately undefined vectors of its own AVX-512 header, and sums of its own strings (PR 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized -Wno-maybe-uninitialized -Wno-restrict>)
 
+# rawtexel_optimise(TARGET LEVEL) for what computes little by itself: it takes longer to compile than it ever runs.
+function(rawtexel_optimise target level)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
+endfunction()
+
 # rawtexel_precompile(TARGET HEADER...) parses foreign headers once for a whole target of tests, half of what compiling one takes. A source
 # still includes whatever it uses. Optimised code is better off without: g++ 12 then takes system headers for ours and warns about them.
 function(rawtexel_precompile target)

@@ -2,6 +2,8 @@
 
 #include "scenes/message_text.h"
 
+#include <nlohmann/json.hpp>
+
 namespace rawtexel::scenes {
 
 shading::LookupPolicy read_policy(const GltfDocument& document, const std::string& place, const tinygltf::Value& extras) {

@@ -3,6 +3,8 @@
 #include "scenes/gltf_schema_rules.h"
 #include "scenes/message_text.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>

@@ -1,7 +1,7 @@
 // The check of a document against the shape that glTF 2.0 gives it (scenes/gltf_schema_rules.h).
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <stdexcept>
 #include <string>

@@ -82,6 +82,9 @@ void make_plans(const Scene& scene, const LookupOverrides& overrides, MaterialSt
         const bool after = filtering.effective_order() == FilterOrder::After;
         if (after) add_to_plan(state, slot, plans.shaded);
         if (!after && filtering.draws()) add_to_plan(state, slot, plans.averaged);
+        const texunit::NumberRoles roles = roles_of(state.maps[size_t(slot)].sampler);
+        plans.roles = {plans.roles.level || roles.level || state.draws_level, plans.roles.probe || roles.probe,
+                       plans.roles.sign || roles.sign};
         plans.enumerates |= after && !filtering.draws();
     }
 }

@@ -142,7 +142,7 @@ class MaterialTaps {
                 lanes |= WaveMask{fragments_.surface[lane] == address.surface} << lane;
             }
             if (lanes == fragments_.lanes) return find_numbers(address, positive_, negative_);
-            texunit::DrawNumbers positive, negative;
+            texunit::DrawNumbers positive{}, negative{};
             find_numbers(address, positive, negative);
             copy_lanes(positive, lanes, positive_);
             copy_lanes(negative, lanes, negative_);
@@ -151,11 +151,13 @@ class MaterialTaps {
     }
 
     void find_numbers(const texunit::RandomAddress& address, texunit::DrawNumbers& positive, texunit::DrawNumbers& negative) const {
-        draw_numbers(address, positive, material().plans.noise);
+        // Who listens is told of all roles.
+        const texunit::NumberRoles roles = hear ? texunit::NumberRoles{} : material().plans.roles;
+        draw_numbers(address, positive, material().plans.noise, roles);
         if (material().plans.common_numbers) {
             negative = positive;
         } else {
-            negative_draw_numbers(address, negative, material().plans.noise);
+            negative_draw_numbers(address, negative, material().plans.noise, roles);
         }
     }
 

@@ -3,6 +3,7 @@
 
 #include "shading/filtering_options.h"
 #include "shading/scene.h"
+#include "texunit/draw.h"
 
 #include <array>
 #include <cstdint>
@@ -28,7 +29,8 @@ struct TapPlans {
     int taps = 1;             ///< draws
     bool common_numbers = false;
     texunit::Noise noise = texunit::Noise::White;
-    texunit::Dither dither = texunit::Dither::None;  ///< whose numbers draw instead of the noise's
+    texunit::NumberRoles roles{false, false, false};  ///< of the draws of both, and of a level drawn for all maps
+    texunit::Dither dither = texunit::Dither::None;   ///< whose numbers draw instead of the noise's
 
     bool draws() const { return !averaged.empty() || !shaded.empty(); }
 };

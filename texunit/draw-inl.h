@@ -60,35 +60,21 @@ HWY_NOINLINE inline void draw_signed_texels(const DrawnLookup& lookup, const Ker
     if (taps.volume) draw.border |= draw_of_axis(taps.z, OfOneSign(taps.sums_z, signs.negative_z), numbers.z, draw.slice);
 }
 
-HWY_INLINE void draw_jittered_texels(const DrawnLookup& lookup, const Kernel& kernel, const DrawnPlace& place, const DrawNumbers& numbers,
+/// Axis by axis, without a list of taps: by a jittered coordinate, or from the weights of few taps.
+HWY_INLINE void draw_listless_texels(const DrawnLookup& lookup, const Kernel& kernel, const DrawnPlace& place, const DrawNumbers& numbers,
                                      TexelDraw& draw) {
     const LevelTable& table = *lookup.levels;
     const SamplerState& sampler = *lookup.sampler;
     const WavePosition& at = place.position;
     const auto axis = [&](EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents, const WaveFloat* rest,
                           const WaveFloat& number, WaveInt& texel) HWY_ATTR {
-        return jitter_axis(kernel, rule, coordinate, extents, place.level, {sampler.precision, rest}, number, texel);
+        const CoordinateReading reading{sampler.precision, rest};
+        return sampler.estimator == Estimator::Jitter ? jitter_axis(kernel, rule, coordinate, extents, place.level, reading, number, texel)
+                                                      : draw_near(kernel, rule, coordinate, extents, place.level, reading, number, texel);
     };
     draw.border = axis(rule_of(at, sampler.wrap_s), *at.u, table.width, at.u_rest, numbers.x, draw.x);
     draw.border |= axis(rule_of(at, sampler.wrap_t), *at.v, table.height, at.v_rest, numbers.y, draw.y);
     if (at.w != nullptr) draw.border |= axis(edge_rule(sampler.wrap_r), *at.w, table.depth, nullptr, numbers.z, draw.slice);
-}
-
-/// Of nearest and bilinear.
-HWY_INLINE void draw_narrow_texels(const DrawnLookup& lookup, const Kernel& kernel, const DrawnPlace& place, const DrawNumbers& numbers,
-                                   TexelDraw& draw) {
-    const WaveMask nearest = kernel.kind == KernelKind::Nearest ? kWaveFull : 0;
-    TapWave<2> taps;
-    select_taps(*lookup.levels, *lookup.sampler, place.position, place.level, nearest, taps);
-    draw.border = draw_of_pair(taps.x, taps.fraction_x, taps.outside_x, taps.leaves, numbers.x, draw.x);
-    draw.border |= draw_of_pair(taps.y, taps.fraction_y, taps.outside_y, taps.leaves, numbers.y, draw.y);
-    if (place.position.w == nullptr) return;
-    WaveInt slice[2];
-    WaveFloat fraction;
-    WaveMask outside[2];
-    const bool leaves = select_axis(edge_rule(lookup.sampler->wrap_r), *place.position.w, lookup.levels->depth, place.level, nearest, slice,
-                                    fraction, {lookup.sampler->precision, nullptr}, outside);
-    draw.border |= draw_of_pair(slice, fraction, outside, leaves, numbers.z, draw.slice);
 }
 
 /// A texel of `kernel` for every lane; indices of cube maps may lie beyond the face.
@@ -96,9 +82,8 @@ HWY_INLINE void draw_indices(const DrawnLookup& lookup, const Kernel& kernel, co
                              Lobes lobes, const LobeMass& mass, TexelDraw& draw) {
     if (!weighs_as_probability(kernel)) return draw_signed_texels(lookup, kernel, place, numbers, lobes, mass, draw);
     if (mass.found != nullptr) std::fill_n(mass.found->lane, kWaveLanes, lobes == Lobes::Magnitude ? 1.0f : 0.0f);
-    if (lookup.sampler->estimator == Estimator::Jitter) return draw_jittered_texels(lookup, kernel, place, numbers, draw);
-    if (kernel.kind == KernelKind::Nearest || kernel.kind == KernelKind::Bilinear)
-        return draw_narrow_texels(lookup, kernel, place, numbers, draw);
+    if (lookup.sampler->estimator == Estimator::Jitter || has_fixed_weights(kernel))
+        return draw_listless_texels(lookup, kernel, place, numbers, draw);
     TextureTaps taps;
     select_axes(lookup, kernel, place, taps);
     draw.border = draw_of_axis(taps.x, AsProbabilities(), numbers.x, draw.x);

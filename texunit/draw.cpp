@@ -23,7 +23,7 @@ struct TexelDimensions {
 constexpr TexelDimensions kPositive{Dimension::TapX, Dimension::TapY, Dimension::Sign};
 constexpr TexelDimensions kNegative{Dimension::NegativeX, Dimension::NegativeY, Dimension::NegativeSign};
 
-void hash_numbers(const RandomAddress& first, bool negative, DrawNumbers& numbers) {
+void hash_numbers(const RandomAddress& first, bool negative, const NumberRoles& roles, DrawNumbers& numbers) {
     const hn::ScalableTag<uint32_t> du;
     const TexelDimensions& texel = negative ? kNegative : kPositive;
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(du)) {
@@ -36,13 +36,13 @@ void hash_numbers(const RandomAddress& first, bool negative, DrawNumbers& number
                                 HWY_ATTR { hn::Store(unit_float_v(du, random_bits_v(du, state, dimension)), FloatTag(), out.lane + i); };
         number(texel.x, numbers.x);
         number(texel.y, numbers.y);
-        number(texel.sign, numbers.sign);
-        number(Dimension::Level, numbers.level);
-        number(Dimension::Probe, numbers.probe);
+        if (roles.sign) number(texel.sign, numbers.sign);
+        if (roles.level) number(Dimension::Level, numbers.level);
+        if (roles.probe) number(Dimension::Probe, numbers.probe);
     }
 }
 
-void find_noise(Noise noise, const RandomAddress& first, bool negative, DrawNumbers& numbers) {
+void find_noise(Noise noise, const RandomAddress& first, bool negative, const NumberRoles& roles, DrawNumbers& numbers) {
     const TexelDimensions& texel = negative ? kNegative : kPositive;
     const auto of = [&](Dimension dimension) {
         RandomAddress address = first;
@@ -50,9 +50,9 @@ void find_noise(Noise noise, const RandomAddress& first, bool negative, DrawNumb
         return address;
     };
     noise_pair_wave(noise, of(texel.x), texel.y, numbers.x, numbers.y);
-    noise_wave(noise, of(texel.sign), numbers.sign);
-    noise_wave(noise, of(Dimension::Level), numbers.level);
-    noise_wave(noise, of(Dimension::Probe), numbers.probe);
+    if (roles.sign) noise_wave(noise, of(texel.sign), numbers.sign);
+    if (roles.level) noise_wave(noise, of(Dimension::Level), numbers.level);
+    if (roles.probe) noise_wave(noise, of(Dimension::Probe), numbers.probe);
 }
 
 /// Coordinates whose inactive lanes repeat an active one, and the layers.
@@ -140,13 +140,19 @@ HWY_EXPORT(count);
 HWY_EXPORT(record);
 HWY_EXPORT(enumerate);
 
-void draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise) {
-    if (noise == Noise::White) return HWY_DYNAMIC_DISPATCH(hash_numbers)(first, false, numbers);
-    HWY_DYNAMIC_DISPATCH(find_noise)(noise, first, false, numbers);
+NumberRoles roles_of(const SamplerState& sampler) {
+    const bool ellipse = sampler.ellipse > 0;
+    const bool one_sign = weighs_as_probability(sampler.magnify) && weighs_as_probability(sampler.minify);
+    return {.level = ellipse || sampler.mip == MipMode::Linear, .probe = ellipse || !sampler.is_isotropic(), .sign = ellipse || !one_sign};
 }
-void negative_draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise) {
-    if (noise == Noise::White) return HWY_DYNAMIC_DISPATCH(hash_numbers)(first, true, numbers);
-    HWY_DYNAMIC_DISPATCH(find_noise)(noise, first, true, numbers);
+
+void draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise, const NumberRoles& roles) {
+    if (noise == Noise::White) return HWY_DYNAMIC_DISPATCH(hash_numbers)(first, false, roles, numbers);
+    HWY_DYNAMIC_DISPATCH(find_noise)(noise, first, false, roles, numbers);
+}
+void negative_draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise, const NumberRoles& roles) {
+    if (noise == Noise::White) return HWY_DYNAMIC_DISPATCH(hash_numbers)(first, true, roles, numbers);
+    HWY_DYNAMIC_DISPATCH(find_noise)(noise, first, true, roles, numbers);
 }
 
 namespace {

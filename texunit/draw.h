@@ -20,10 +20,17 @@ struct DrawNumbers {
     WaveFloat z;
 };
 
-/// The numbers of a wave whose upper left pixel is (first.x, first.y), but for z; first.dimension is not looked at.
-void draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise = Noise::White);
+/// Which numbers beside x, y and z the draws of a lookup look at.
+struct NumberRoles {
+    bool level = true, probe = true, sign = true;
+};
+NumberRoles roles_of(const SamplerState& sampler);
+
+/// The numbers of a wave whose upper left pixel is (first.x, first.y), but for z and those of roles that are not asked for, which stay as
+/// they were; first.dimension is not looked at.
+void draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise = Noise::White, const NumberRoles& roles = {});
 /// Those of the negative weights' texel: its own but for level and probe, which both share.
-void negative_draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise = Noise::White);
+void negative_draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise = Noise::White, const NumberRoles& roles = {});
 /// numbers.z alone, for volumes and cube maps.
 void draw_depth_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise = Noise::White);
 void negative_draw_depth_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise = Noise::White);

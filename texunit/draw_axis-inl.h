@@ -1,4 +1,4 @@
-// A draw along one axis: of two taps, of many, of those of one sign, or by a jittered coordinate.
+// A draw along one axis: of few taps, of many, of those of one sign, or by a jittered coordinate.
 #include "texunit/draw_jitter-inl.h"
 #include "texunit/wide_taps-inl.h"
 
@@ -16,22 +16,6 @@ HWY_BEFORE_NAMESPACE();
 namespace rawtexel::texunit {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// The second tap of a pair, where the number is not below the weight of the first. Returns the lanes whose texel is beyond an edge.
-HWY_INLINE WaveMask draw_of_pair(const WaveInt (&texel)[2], const WaveFloat& fraction, const WaveMask (&outside)[2], bool leaves,
-                                 const WaveFloat& number, WaveInt& drawn) {
-    const FloatTag d;
-    const IntTag di;
-    WaveMask second = 0;
-    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto first_weight = hn::Sub(hn::Set(d, 1.0f), hn::Load(d, fraction.lane + i));
-        const auto takes = hn::Load(d, number.lane + i) >= first_weight;
-        const auto texels = hn::IfThenElse(hn::RebindMask(di, takes), hn::Load(di, texel[1].lane + i), hn::Load(di, texel[0].lane + i));
-        hn::Store(texels, di, drawn.lane + i);
-        if (leaves) second |= wave_mask(d, takes, i);
-    }
-    return leaves ? (second & outside[1]) | (~second & outside[0]) : 0;
-}
 
 /// Sums of an axis's positive weights and of its negative ones' magnitudes.
 struct SignedSums {
@@ -117,6 +101,58 @@ HWY_INLINE WaveMask draw_of_axis(const AxisTaps& taps, const Probabilities& prob
         border = (border & ~lanes) | (taps.outside[k] & lanes);
     });
     return border;
+}
+
+/// The texel that index i of a tap means, of kernels that reach no farther than 3 texels beyond their coordinate. One division less than
+/// modulo_period.
+template <EdgeRule rule, class V>
+HWY_INLINE V near_texel(V i, V extent) {
+    const hn::DFromV<V> d;
+    if constexpr (!repeats(rule)) return limit_index<rule>(i, extent);
+    const V period = rule == EdgeRule::MirroredRepeat ? hn::Add(extent, extent) : extent;
+    // Of a single texel the index may be more than two periods off.
+    return hn::Max(hn::Min(fold_period<rule>(wrap_period(i, period), period), hn::Sub(extent, hn::Set(d, 1))), hn::Zero(d));
+}
+
+/// A tap of a kernel of few taps, none of negative weight, drawn without a list of them: as draw_of_axis draws it. Of a cube map it may lie
+/// beyond the face. Returns the lanes whose texel is beyond an edge.
+template <EdgeRule rule>
+HWY_NOINLINE WaveMask draw_near_as(const Kernel& kernel, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
+                                   const WaveInt& level, const CoordinateReading& reading, const WaveFloat& number, WaveInt& drawn) {
+    const FloatTag d;
+    const IntTag di;
+    WaveMask border = 0;
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        const auto extent = look_up_level(di, extents, hn::Load(di, level.lane + i));
+        hn::Vec<FloatTag> integer, remainder;
+        locate<rule>(coordinate, reading, hn::ConvertTo(d, extent), i, integer, remainder);
+        const auto random = hn::Load(d, number.lane + i);
+        const auto place = with_fixed_weights(kernel, remainder, [&](const auto& weight, FloatVec first) HWY_ATTR {
+            auto before = hn::Zero(d), tap = hn::Zero(d);
+            float k = 0;
+            for (const FloatVec& one : weight) {
+                tap = hn::IfThenElse(hn::And(one > hn::Zero(d), random >= before), hn::Set(d, k), tap);
+                before = hn::Add(before, one);
+                ++k;
+            }
+            return hn::Add(first, tap);
+        });
+        auto index = hn::ConvertTo(di, hn::Add(integer, place));
+        if constexpr (rule == EdgeRule::CubeEdge) {
+            // One texel never leaves the face: a coordinate of 1 belongs to the last.
+            if (kernel.kind == KernelKind::Nearest) index = limit_index<EdgeRule::ClampToEdge>(index, extent);
+        }
+        hn::Store(near_texel<rule>(index, extent), di, drawn.lane + i);
+        if constexpr (can_leave(rule)) border |= wave_mask(di, beyond_edges(index, extent), i);
+    }
+    return border;
+}
+
+HWY_INLINE WaveMask draw_near(const Kernel& kernel, EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
+                              const WaveInt& level, const CoordinateReading& reading, const WaveFloat& number, WaveInt& drawn) {
+    return with_rule(rule, [&](auto constant) HWY_ATTR {
+        return draw_near_as<decltype(constant)::value>(kernel, coordinate, extents, level, reading, number, drawn);
+    });
 }
 
 /// Lanes whose drawn tap, by magnitude, weighs less than nothing.
