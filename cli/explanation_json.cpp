@@ -148,8 +148,7 @@ Json surface_json(const ExplainedSurface& surface) {
     json["geometric_normal"] = numbers(surface.geometric_normal);
     json["normal"] = numbers(surface.normal);
     if (surface.vertex_color) json["vertex_color"] = numbers(*surface.vertex_color);
-    if (!surface.numbers.empty()) json["random"] = Json::object();
-    for (const ExplainedNumber& each : surface.numbers) json["random"][std::string(each.dimension)] = each.number;
+    for (const ExplainedNumber& each : surface.numbers) json["numbers"][std::string(each.dimension)] = each.number;
     add_matter(surface, json);
     for (const ExplainedSurface& branch : surface.branches) json["branches"].push_back(branch_json(branch));
     return json;

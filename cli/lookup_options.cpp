@@ -80,7 +80,7 @@ void check_texture_jitter(const LookupOptions& lookup) {
     if (lookup.filtering.texture_jitter == shading::TextureJitter::None) return;
     const std::string option = "--texture-jitter " + std::string(to_string(lookup.filtering.texture_jitter));
     if (lookup.mip != MipMode::None) throw UsageError(option + " filters minified textures by itself (allowed: with --mip none)");
-    if (!(lookup.footprint == shading::FootprintOptions{}))
+    if (!(lookup.footprint == shading::FootprintOptions{}) || lookup.names_lod_rule)
         throw UsageError(option +
                          " looks up points without footprints (not allowed with --aniso, --ewa, --lod-*, --hybrid-bias, "
                          "--derivatives and --footprint)");

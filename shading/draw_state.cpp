@@ -242,6 +242,34 @@ void override_sampler(const LookupOverrides& overrides, texunit::SamplerState& s
     override_baseline(overrides.filtering.baseline, sampler);
 }
 
+namespace {
+
+/// Why a map cannot be looked up so; empty where it can.
+std::string refusal_of_map(const MapState& map, const AskedLookup& asked) {
+    const texunit::SamplerState& sampler = map.sampler;
+    if (sampler.ellipse > 0 && sampler.estimator == texunit::Estimator::AbsWeight)
+        return "abs-weight: an ellipse has no negative weights (allowed with --ewa: all, reservoir, jitter)";
+    if (sampler.ellipse > 0 && (asked.policy.filter || asked.policy.mip))
+        return "a policy has a filter or a mip mode, which --ewa has no use for";
+    if (asked.filtering.texture_jitter != TextureJitter::None && sampler.mip != texunit::MipMode::None)
+        return "a policy asks for levels, and texture jitter filters minified textures by itself";
+    for (const texunit::Kernel& kernel : {sampler.magnify, sampler.minify}) {
+        const std::string_view reason = texunit::refusal(sampler.estimator, kernel);
+        if (!reason.empty())
+            return std::string(to_string(sampler.estimator)) + " cannot draw " + to_string(kernel) + ", " + std::string(reason);
+    }
+    return {};
+}
+
+bool draws_signs(const MaterialState& state) {
+    return std::ranges::any_of(state.maps, [](const MapState& map) {
+        return map.texture && map.sampler.estimator == texunit::Estimator::Reservoir && map.sampler.ellipse <= 0 &&
+               !(texunit::weighs_as_probability(map.sampler.magnify) && texunit::weighs_as_probability(map.sampler.minify));
+    });
+}
+
+}  // namespace
+
 std::string refusal(const Scene& scene, const LookupOverrides& overrides) {
     const FilteringOptions& filtering = overrides.filtering;
     const DrawStates states = make_material_states(scene, overrides);
@@ -250,20 +278,17 @@ std::string refusal(const Scene& scene, const LookupOverrides& overrides) {
                std::to_string(bytes >> 20) + " MiB (allowed: " + std::to_string(kMostMomentBytes >> 20) + ")";
     if (filtering.noise != texunit::Noise::White && !takes_noise(states, filtering))
         return "noise " + std::string(to_string(filtering.noise)) + ": nothing draws (allowed: white, or an estimator that draws)";
+    if (filtering.common_numbers && std::ranges::none_of(states.materials, draws_signs))
+        return "signed-numbers common: no kernel draws a texel of either sign (allowed: reservoir and a kernel with negative lobes)";
     for (const MaterialState& state : states.materials) {
         const std::string material = "material '" + state.material->name + "': ";
         if (filtering.baseline != Baseline::None && state.branches())
             return material + "baseline " + std::string(to_string(filtering.baseline)) + " knows no planes and layers";
-        for (const MapState& map : state.maps) {
+        for (int slot = 0; slot < kMapSlots; ++slot) {
+            const MapState& map = state.maps[size_t(slot)];
             if (!map.texture) continue;
-            if (map.sampler.ellipse > 0 && map.sampler.estimator == texunit::Estimator::AbsWeight)
-                return material + "abs-weight: an ellipse has no negative weights (allowed with --ewa: all, reservoir, jitter)";
-            for (const texunit::Kernel& kernel : {map.sampler.magnify, map.sampler.minify}) {
-                const std::string_view reason = texunit::refusal(map.sampler.estimator, kernel);
-                if (!reason.empty())
-                    return material + std::string(to_string(map.sampler.estimator)) + " cannot draw " + to_string(kernel) + ", " +
-                           std::string(reason);
-            }
+            const std::string reason = refusal_of_map(map, asked_lookup(scene, *state.material, slot, overrides));
+            if (!reason.empty()) return material + reason;
         }
         if (mixes_baselines(scene, state, overrides))
             return material + "some of its maps are looked up as baseline " + std::string(to_string(filtering.baseline)) +

@@ -19,12 +19,12 @@ struct DrawSource {
     bool common_numbers = false;  ///< texels of negative weights are drawn with the numbers of the positive ones
 };
 
-/// The numbers of the roles that decide a drawn texel; empty where the lookup leaves a role nothing to decide.
+/// The numbers that a sampler looks at to draw a texel; empty for roles that it never does.
 struct RoleNumbers {
     float x = 0, y = 0;
     std::optional<float> z;      ///< of volumes and cube maps
     std::optional<float> level;  ///< between levels, or of drawn ellipses with a bias
-    std::optional<float> probe;  ///< of several probes
+    std::optional<float> probe;  ///< where it takes several probes
     std::optional<float> sign;   ///< of kernels with negative lobes, but for abs-weight
 };
 

@@ -342,7 +342,7 @@ TEST(ExplainNumbers, AreThoseOfTheirAddresses) {
             joined({"explain", scene, "--json", "--size", "96x54", "--pixel", pixel, "--sample", "3", "--spp", "4", "--seed", "5"}, more));
         EXPECT_EQ(outcome.code, kDone) << outcome.err;
         const Json json = Json::parse(outcome.out);
-        return json["samples"][0]["surface"].value("random", Json());
+        return json["samples"][0]["surface"].value("numbers", Json());
     };
     const auto expect = [](const Json& random, const char* name, uint32_t x, uint32_t y, Dimension dimension) {
         const float number = texunit::random_float({.x = x, .y = y, .sample = 3, .dimension = dimension, .seed = 5});
@@ -363,6 +363,19 @@ TEST(ExplainNumbers, AreThoseOfTheirAddresses) {
     EXPECT_EQ(level.size(), 1u) << level;
     expect(level, "level", 48, 40, Dimension::Level);
     EXPECT_TRUE(random_of("plane", "48,40", {}).is_null());
+}
+
+TEST_F(ExplainTest, TellsTheNumberThatCoversBesideOthers) {
+    const Json json = explain(scene_, 20, 14, {"--spp", "16", "--mip", "none", "--texture-jitter", "affine"});
+    int blended = 0;
+    for (const Json& sample : json["samples"]) {
+        const Json& surface = sample["surface"];
+        EXPECT_EQ(surface["numbers"].size(), 2u) << surface;
+        if (surface.value("alpha_mode", "") != "BLEND") continue;
+        ++blended;
+        EXPECT_EQ(surface["random"]["dimension"], "coverage") << surface;
+    }
+    EXPECT_GT(blended, 0);
 }
 
 TEST_F(ExplainTest, TellsHundredsOfSamples) {

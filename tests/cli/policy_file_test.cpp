@@ -84,6 +84,22 @@ TEST(LookupPolicies, SpecificOnesWin) {
               FilterOrder::After);
 }
 
+TEST_F(PolicyFile, RefusesWhatTheOptionsLeaveWithoutEffect) {
+    const std::string policy = folder_ / "policy.json";
+    const auto with = [&](const char* member, const std::vector<std::string>& options) {
+        test::write_file(policy, R"({"textures": {")" + scene_.textures[0].texture->name() + "\": " + member + "}}");
+        std::vector<std::string> words{"render", "metal-edge", "--size", "16x9", "-o", folder_ / "a.exr", "--policy", policy};
+        words.insert(words.end(), options.begin(), options.end());
+        return test::run(words);
+    };
+    const std::string filtered = R"({"filter": "bspline"})", levels = R"({"mip": "linear"})";
+    EXPECT_EQ(test::why_not_failed(with(filtered.c_str(), {"--ewa"}), kWrongUsage, "which --ewa has no use for"), "");
+    EXPECT_EQ(test::why_not_failed(with(levels.c_str(), {"--ewa"}), kWrongUsage, "which --ewa has no use for"), "");
+    EXPECT_EQ(test::why_not_failed(with(levels.c_str(), {"--mip", "none", "--texture-jitter", "affine"}), kWrongUsage, "asks for levels"),
+              "");
+    EXPECT_EQ(with(filtered.c_str(), {"--mip", "none", "--texture-jitter", "affine"}).code, kDone);
+}
+
 /// A texture that keeps `before` beside draws: the draws of the others stay, and its own texels are all weighed.
 TEST_F(PolicyFile, KeepsATextureFilteredBeforeShading) {
     const std::string policy = folder_ / "policy.json", stats = folder_ / "stats.json";

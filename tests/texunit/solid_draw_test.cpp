@@ -99,7 +99,7 @@ TEST(SolidDraw, ListsTheWeightsOfLookups) {
                     for (const auto& [place, weight] : found[k]) weights.try_emplace(place, 0.0);
                     for (const auto& [place, weight] : weights) {
                         worst = std::max(worst, std::abs(found[k][place] - weight));
-                        EXPECT_NEAR(found[k][place], weight, 2e-6)
+                        EXPECT_NEAR(found[k][place], weight, 1e-6)
                             << to_string(kernel) << ' ' << to_string(mip) << " cube " << shape.cube << " lookup " << k;
                     }
                 }
