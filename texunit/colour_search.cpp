@@ -49,6 +49,7 @@ ColourSearch::ColourSearch(const Colour& wanted, double threshold)
 }
 
 void ColourSearch::visit(const ColourPatch& patch) {
+    bend_ = patch.bend;
     if (!can_improve(patch.least, patch.most)) return;
     finer_ = &patch;
     coarser_ = nullptr;
@@ -60,6 +61,7 @@ void ColourSearch::visit(const ColourPatch& patch) {
 }
 
 void ColourSearch::visit(const ColourPatch& finer, const ColourPatch& coarser, Range share, Effort effort) {
+    bend_ = std::max(finer.bend, coarser.bend);
     Colour low, high;
     for (size_t c = 0; c < 4; ++c) {
         const auto mixed = [&](const Colour& a, const Colour& b, double s) { return a[c] + s * (b[c] - a[c]); };
@@ -94,7 +96,7 @@ bool ColourSearch::can_improve(const Colour& least, const Colour& most) {
         least_[c] = std::min(least_[c], least[c]), most_[c] = std::max(most_[c], most[c]);
         outside = std::max({outside, least[c] - wanted_[c], wanted_[c] - most[c]});
     }
-    return excess_ > 1 && outside < excess_ * threshold_;
+    return excess_ > 1 && outside < excess_ * threshold_ + bend_;
 }
 
 Colour ColourSearch::colour_at(const Place& place) const {
@@ -109,7 +111,7 @@ Colour ColourSearch::colour_at(const Place& place) const {
 double ColourSearch::measure(const Colour& colour) {
     double farthest = 0;
     for (size_t c = 0; c < 4; ++c) farthest = std::max(farthest, std::abs(colour[c] - wanted_[c]));
-    const double excess = farthest == 0 ? 0 : farthest / threshold_;
+    const double excess = farthest <= bend_ ? 0 : (farthest - bend_) / threshold_;
     if (excess < excess_) {
         excess_ = excess;
         closest_ = colour;
@@ -137,7 +139,8 @@ void ColourSearch::search(const Box& box) {
     bool reachable = true;
     double spread = 0;
     for (size_t c = 0; c < 4; ++c) {
-        reachable = reachable && least[c] - threshold_ <= wanted_[c] && wanted_[c] <= most[c] + threshold_;
+        const double near = threshold_ + bend_;
+        reachable = reachable && least[c] - near <= wanted_[c] && wanted_[c] <= most[c] + near;
         spread = std::max(spread, most[c] - least[c]);
     }
     // Corners this close together leave nothing to find between them.

@@ -19,6 +19,7 @@ struct ColourPatch {
     size_t sides = 2;                ///< 2 or 3
     std::array<Colour, 8> corner{};  ///< [4*z + 2*y + x]
     Colour least{}, most{};          ///< of the corners, each channel by itself
+    double bend = 0;                 ///< how far the colours themselves may be off the patch, in every channel
     size_t corners() const { return size_t{1} << sides; }
     /// Sets least and most.
     void find_bounds();
@@ -63,6 +64,7 @@ class ColourSearch {
     const ColourPatch* finer_ = nullptr;
     const ColourPatch* coarser_ = nullptr;  ///< null: one level
     size_t sides_ = 2;
+    double bend_ = 0;  ///< of the family
     int boxes_left_ = 0;
 
     double excess_;

@@ -64,11 +64,19 @@ struct Stretch {
 };
 
 /// The weights of smooth kernels pass for linear over a stretch this long, in texels: their curvature is below 16 a texel^2, of B-splines
-/// at most 2, so that they are off by 2e-6. Wide ranges, of low precision, are cut into this many stretches at most.
-constexpr double longest_stretch(const Kernel& kernel) {
-    return kernel.kind == KernelKind::Quadratic || kernel.kind == KernelKind::BSpline ? 1.0 / 354 : 1.0 / 1024;
-}
+/// at most 2, so that they are off by 2e-6. Wide ranges, of low precision or far from the origin, are cut into this many stretches at most.
 constexpr double kMostStretches = 24;
+constexpr bool is_spline(const Kernel& kernel) { return kernel.kind == KernelKind::Quadratic || kernel.kind == KernelKind::BSpline; }
+constexpr double longest_stretch(const Kernel& kernel, Range x) {
+    return std::max(is_spline(kernel) ? 1.0 / 354 : 1.0 / 1024, (x.high - x.low) / kMostStretches);
+}
+
+/// How far the weights of longer stretches than that are off, summed over the taps.
+double bend_of(const Kernel& kernel, Range x) {
+    if (kernel.kind == KernelKind::Nearest || kernel.kind == KernelKind::Bilinear) return 0;
+    const double longest = longest_stretch(kernel, x), curvature = is_spline(kernel) ? 2 : 16;
+    return longest > (x.high - x.low) / kMostStretches ? 0 : curvature * longest * longest / 8;
+}
 
 /// Where the weights of a kernel, as functions of the coordinate, bend or jump: at texel edges and centres, and where a Gaussian's interval
 /// of 4 sigma ends at one.
@@ -90,7 +98,7 @@ std::vector<double> breaks_within(const Kernel& kernel, Range x) {
 
 std::vector<Stretch> stretches(const Kernel& kernel, Range x) {
     const std::vector<double> breaks = breaks_within(kernel, x);
-    const double longest = std::max(longest_stretch(kernel), (x.high - x.low) / kMostStretches);
+    const double longest = longest_stretch(kernel, x);
     std::vector<Stretch> all;
     for (size_t n = 1; n < breaks.size(); ++n) {
         const double low = breaks[n - 1], high = breaks[n];
@@ -150,6 +158,17 @@ class TexelGrid {
         return sum;
     }
 
+    /// Of the texels' values, in the channel where they differ most.
+    double spread() const {
+        double spread = 0;
+        for (size_t c = 0; c < 4; ++c) {
+            const auto by_channel = [c](const Colour& a, const Colour& b) { return a[c] < b[c]; };
+            const auto [least, most] = std::minmax_element(texels_.begin(), texels_.end(), by_channel);
+            spread = std::max(spread, (*most)[c] - (*least)[c]);
+        }
+        return spread;
+    }
+
   private:
     std::array<int64_t, 3> first_{}, count_{};
     std::vector<Colour> texels_;
@@ -200,20 +219,24 @@ std::vector<ColourPatch> LegalPatches::at(const LegalPlace& place, const Kernel&
     const std::array<int, 3> extents{level_extent(shape.width, level), level_extent(shape.height, level), level_extent(shape.depth, level)};
     const std::array<Wrap, 3> wraps{sampler_.wrap_s, sampler_.wrap_t, sampler_.wrap_r};
     std::array<std::vector<Stretch>, 3> axes;
+    double bend = 0;
     for (size_t axis = 0; axis < (is_volume ? 3 : 2); ++axis) {
         // Coordinates on a face have no wrap.
         const Wrap wrap = shape.cube ? Wrap::ClampToEdge : wraps[axis];
-        axes[axis] = stretches(kernel, texel_space(wrap, place.at[axis], extents[axis], suspicion_.shift[axis]));
+        const Range x = texel_space(wrap, place.at[axis], extents[axis], suspicion_.shift[axis]);
+        axes[axis] = stretches(kernel, x);
+        bend += bend_of(kernel, x);
     }
     const std::vector<WeightedTexel> one{{0, 1.0}};
     if (!is_volume) axes[2] = {{one, one}};
 
     const TexelGrid grid(axes, [&](const std::array<int64_t, 3>& index) { return texel_at(level, place, index); });
+    if (bend > 0) bend *= grid.spread();
     std::vector<ColourPatch> patches;
     for (const Stretch& z : axes[2]) {
         for (const Stretch& y : axes[1]) {
             for (const Stretch& x : axes[0]) {
-                ColourPatch patch{.sides = is_volume ? size_t{3} : size_t{2}, .corner = {}};
+                ColourPatch patch{.sides = is_volume ? size_t{3} : size_t{2}, .corner = {}, .bend = bend};
                 for (size_t n = 0; n < patch.corners(); ++n)
                     patch.corner[n] = grid.sum((n & 1) != 0 ? x.to : x.from, (n & 2) != 0 ? y.to : y.from, (n & 4) != 0 ? z.to : z.from);
                 patch.find_bounds();
