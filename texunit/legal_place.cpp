@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rawtexel::texunit {
 namespace {
@@ -101,7 +102,10 @@ LegalPlace flat_place(const Shape& shape, const JudgedLookup& lookup, const Lega
 
 }  // namespace
 
-double float_error(double value, int bits) { return value == 0 ? 0 : std::ldexp(1.0, std::ilogb(value) - bits); }
+double float_error(double value, int bits) {
+    if (!std::isfinite(value)) return std::numeric_limits<double>::infinity();
+    return value == 0 ? 0 : std::ldexp(1.0, std::ilogb(value) - bits);
+}
 
 std::vector<LegalPlace> legal_places(const Shape& shape, const JudgedLookup& lookup, const LegalPrecision& precision) {
     const std::vector<LegalPlace> on_one =
