@@ -52,9 +52,9 @@ struct SignedDraw {
 };
 
 /// Draws for the lanes of `mask` in a 2-D texture, or in `layer` of an array (of volumes and cube maps: texunit/shared_draw.h), as
-/// sampler.estimator says (All draws as Reservoir does);
-/// reads no texel. The kernels' weights are probabilities (asserted). Levels, probes and kernels are chosen as by sample_wave; where
-/// sampler.ellipse is positive the draw is from the ellipse. Other lanes repeat an active one.
+/// sampler.estimator says (All draws as Reservoir does); reads no texel. The kernels' weights are probabilities (asserted). Levels, probes
+/// and kernels are chosen as by sample_wave; where sampler.ellipse is positive the draw is from the ellipse. Other lanes repeat an active
+/// one.
 void draw_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
                TexelDraw& draw, const WaveFloat* layer = nullptr);
 

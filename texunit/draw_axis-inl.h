@@ -103,58 +103,6 @@ HWY_INLINE WaveMask draw_of_axis(const AxisTaps& taps, const Probabilities& prob
     return border;
 }
 
-/// The texel that index i of a tap means, of kernels that reach no farther than 3 texels beyond their coordinate. One division less than
-/// modulo_period.
-template <EdgeRule rule, class V>
-HWY_INLINE V near_texel(V i, V extent) {
-    const hn::DFromV<V> d;
-    if constexpr (!repeats(rule)) return limit_index<rule>(i, extent);
-    const V period = rule == EdgeRule::MirroredRepeat ? hn::Add(extent, extent) : extent;
-    // Of a single texel the index may be more than two periods off.
-    return hn::Max(hn::Min(fold_period<rule>(wrap_period(i, period), period), hn::Sub(extent, hn::Set(d, 1))), hn::Zero(d));
-}
-
-/// A tap of a kernel of few taps, none of negative weight, drawn without a list of them: as draw_of_axis draws it. Of a cube map it may lie
-/// beyond the face. Returns the lanes whose texel is beyond an edge.
-template <EdgeRule rule>
-HWY_NOINLINE WaveMask draw_near_as(const Kernel& kernel, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
-                                   const WaveInt& level, const CoordinateReading& reading, const WaveFloat& number, WaveInt& drawn) {
-    const FloatTag d;
-    const IntTag di;
-    WaveMask border = 0;
-    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto extent = look_up_level(di, extents, hn::Load(di, level.lane + i));
-        hn::Vec<FloatTag> integer, remainder;
-        locate<rule>(coordinate, reading, hn::ConvertTo(d, extent), i, integer, remainder);
-        const auto random = hn::Load(d, number.lane + i);
-        const auto place = with_fixed_weights(kernel, remainder, [&](const auto& weight, FloatVec first) HWY_ATTR {
-            auto before = hn::Zero(d), tap = hn::Zero(d);
-            float k = 0;
-            for (const FloatVec& one : weight) {
-                tap = hn::IfThenElse(hn::And(one > hn::Zero(d), random >= before), hn::Set(d, k), tap);
-                before = hn::Add(before, one);
-                ++k;
-            }
-            return hn::Add(first, tap);
-        });
-        auto index = hn::ConvertTo(di, hn::Add(integer, place));
-        if constexpr (rule == EdgeRule::CubeEdge) {
-            // One texel never leaves the face: a coordinate of 1 belongs to the last.
-            if (kernel.kind == KernelKind::Nearest) index = limit_index<EdgeRule::ClampToEdge>(index, extent);
-        }
-        hn::Store(near_texel<rule>(index, extent), di, drawn.lane + i);
-        if constexpr (can_leave(rule)) border |= wave_mask(di, beyond_edges(index, extent), i);
-    }
-    return border;
-}
-
-HWY_INLINE WaveMask draw_near(const Kernel& kernel, EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
-                              const WaveInt& level, const CoordinateReading& reading, const WaveFloat& number, WaveInt& drawn) {
-    return with_rule(rule, [&](auto constant) HWY_ATTR {
-        return draw_near_as<decltype(constant)::value>(kernel, coordinate, extents, level, reading, number, drawn);
-    });
-}
-
 /// Lanes whose drawn tap, by magnitude, weighs less than nothing.
 HWY_INLINE WaveMask negative_lanes(const AxisTaps& taps, const SignedSums& sums, const WaveFloat& number) {
     const FloatTag d;
@@ -167,39 +115,73 @@ HWY_INLINE WaveMask negative_lanes(const AxisTaps& taps, const SignedSums& sums,
     return negative;
 }
 
-/// The nearest texel after the coordinate has moved by the kernel's offset; of a cube map maybe beyond the face. Returns the lanes whose
-/// texel is beyond an edge.
-template <EdgeRule rule>
-HWY_NOINLINE WaveMask jitter_axis_as(const Kernel& kernel, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
-                                     const WaveInt& level, const CoordinateReading& reading, const WaveFloat& number, WaveInt& drawn) {
+/// The texel that an index of a drawn tap means. `near`: it lies no farther than 3 texels beyond its coordinate, which spares a division.
+template <EdgeRule rule, class V>
+HWY_INLINE V drawn_texel(V index, V extent, bool near) {
+    if constexpr (!repeats(rule)) return limit_index<rule>(index, extent);
+    const hn::DFromV<V> d;
+    const V period = rule == EdgeRule::MirroredRepeat ? hn::Add(extent, extent) : extent;
+    if (!near) return fold_period<rule>(modulo_period(index, period), period);
+    // Of a single texel the index may be more than two periods off.
+    return hn::Max(hn::Min(fold_period<rule>(wrap_period(index, period), period), hn::Sub(extent, hn::Set(d, 1))), hn::Zero(d));
+}
+
+/// A texel along one axis without a list of taps: place(remainder, number) is where it lies from the coordinate's integer part. Of a cube
+/// map it may lie beyond the face. Returns the lanes whose texel is beyond an edge.
+template <EdgeRule rule, class Place>
+HWY_NOINLINE WaveMask draw_placed_as(const Kernel& kernel, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
+                                     const WaveInt& level, const CoordinateReading& reading, const WaveFloat& number, const Place& place,
+                                     WaveInt& drawn) {
     const FloatTag d;
     const IntTag di;
+    const bool near = has_fixed_weights(kernel);
     WaveMask border = 0;
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
         const auto extent = look_up_level(di, extents, hn::Load(di, level.lane + i));
         hn::Vec<FloatTag> integer, remainder;
         locate<rule>(coordinate, reading, hn::ConvertTo(d, extent), i, integer, remainder);
-        const auto moved = hn::Floor(hn::Add(remainder, jitter_offset(kernel, hn::Load(d, number.lane + i))));
-        auto index = hn::ConvertTo(di, hn::Add(integer, moved));
+        auto index = hn::ConvertTo(di, hn::Add(integer, place(remainder, hn::Load(d, number.lane + i))));
         if constexpr (rule == EdgeRule::CubeEdge) {
             // One texel never leaves the face: a coordinate of 1 belongs to the last.
             if (kernel.kind == KernelKind::Nearest) index = limit_index<EdgeRule::ClampToEdge>(index, extent);
         }
-        const auto period = rule == EdgeRule::MirroredRepeat ? hn::Add(extent, extent) : extent;
-        if constexpr (repeats(rule)) {
-            hn::Store(fold_period<rule>(modulo_period(index, period), period), di, drawn.lane + i);
-        } else {
-            hn::Store(limit_index<rule>(index, extent), di, drawn.lane + i);
-        }
+        hn::Store(drawn_texel<rule>(index, extent, near), di, drawn.lane + i);
         if constexpr (can_leave(rule)) border |= wave_mask(di, beyond_edges(index, extent), i);
     }
     return border;
 }
 
-HWY_INLINE WaveMask jitter_axis(const Kernel& kernel, EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
+/// The nearest texel after the coordinate has moved by the kernel's offset.
+struct JitteredPlace {
+    const Kernel& kernel;
+    HWY_INLINE FloatVec operator()(FloatVec remainder, FloatVec number) const {
+        return hn::Floor(hn::Add(remainder, jitter_offset(kernel, number)));
+    }
+};
+
+/// A tap of a kernel of few taps, none of negative weight, as draw_of_axis draws it.
+struct WeighedPlace {
+    const Kernel& kernel;
+    HWY_INLINE FloatVec operator()(FloatVec remainder, FloatVec number) const {
+        return with_fixed_weights(kernel, remainder, [&](const auto& weight, FloatVec first) HWY_ATTR {
+            const FloatTag d;
+            auto before = hn::Zero(d), tap = hn::Zero(d);
+            float k = 0;
+            for (const FloatVec& one : weight) {
+                tap = hn::IfThenElse(hn::And(one > hn::Zero(d), number >= before), hn::Set(d, k), tap);
+                before = hn::Add(before, one);
+                ++k;
+            }
+            return hn::Add(first, tap);
+        });
+    }
+};
+
+template <class Place>
+HWY_INLINE WaveMask draw_placed(const Place& place, EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
                                 const WaveInt& level, const CoordinateReading& reading, const WaveFloat& number, WaveInt& drawn) {
     return with_rule(rule, [&](auto constant) HWY_ATTR {
-        return jitter_axis_as<decltype(constant)::value>(kernel, coordinate, extents, level, reading, number, drawn);
+        return draw_placed_as<decltype(constant)::value>(place.kernel, coordinate, extents, level, reading, number, place, drawn);
     });
 }
 
