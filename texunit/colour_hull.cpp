@@ -41,7 +41,8 @@ void ColourHull::add(double weight, std::span<const ColourPatch> patches) {
     for (size_t i = 0; i < kHullDirections; ++i) {
         double reach = -std::numeric_limits<double>::infinity();
         for (const ColourPatch& patch : patches) {
-            for (size_t n = 0; n < patch.corners(); ++n) reach = std::max(reach, dot(directions()[i].sign, patch.corner[n]));
+            for (size_t n = 0; n < patch.corners(); ++n)
+                reach = std::max(reach, dot(directions()[i].sign, patch.corner[n]) + patch.bend * directions()[i].length);
         }
         reach_[i] += weight * reach;
     }

@@ -21,7 +21,7 @@ WaveCoordinates3 spread(const LaneCoordinates3& at) {
     return wave;
 }
 
-/// Tells which roles decide something.
+/// Those that the sampler looks at.
 RoleNumbers numbers_of(const SharedLookup& lookup, const DrawNumbers& numbers) {
     const SamplerState& sampler = *lookup.sampler;
     const bool ellipse = sampler.ellipse > 0;

@@ -24,6 +24,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 HWY_INLINE bool has_negative_lobes(const SamplerState& sampler) {
     return sampler.ellipse <= 0 && !(weighs_as_probability(sampler.magnify) && weighs_as_probability(sampler.minify));
 }
+
 /// A set ready to be drawn from.
 struct DrawnSet {
     HWY_INLINE explicit DrawnSet(const LookupSet& set) : mask(set.mask), count(set.count) {
@@ -127,8 +128,8 @@ HWY_INLINE void draw_set(const LookupSet& lookups, const DrawNumbers& positive, 
     }
     WaveFloat mass;
     if (set.lookup[0].sampler->estimator == Estimator::AbsWeight) {
-        draw_each(set, positive, Lobes::Magnitude, {}, tap.draw);
-        draw_one(set, 0, positive, Lobes::Magnitude, {nullptr, &tap.weight}, tap.draw[0]);
+        for (int k = 0; k < set.count; ++k)
+            draw_one(set, k, positive, Lobes::Magnitude, {nullptr, k == 0 ? &tap.weight : nullptr}, tap.draw[k]);
         return use(tap);
     }
     draw_positive(set, positive, tap.draw, mass);
