@@ -30,14 +30,6 @@ int minification_code(Kernel kernel, MipMode mip) {
     return mip == MipMode::None ? 9728 + linear : 9984 + linear + (mip == MipMode::Linear ? 2 : 0);
 }
 
-/// Of `element` in `array`, at whose end it is put where it is new.
-int index_of(json& array, json element) {
-    const auto known = std::find(array.begin(), array.end(), element);
-    if (known != array.end()) return int(known - array.begin());
-    array.push_back(std::move(element));
-    return int(array.size()) - 1;
-}
-
 json sampler_json(const texunit::SamplerState& state) {
     return {{"wrapS", wrap_code(state.wrap_s)},
             {"wrapT", wrap_code(state.wrap_t)},
@@ -112,6 +104,12 @@ std::string_view extension_of_type(std::string_view mime_type) {
 
 }  // namespace
 
+int ExportTextures::DistinctElements::index_of(json element) {
+    const auto [entry, is_new] = index.try_emplace(std::move(element), int(array.size()));
+    if (is_new) array.push_back(entry->first);
+    return entry->second;
+}
+
 int ExportTextures::image(int index, bool color) {
     const shading::SceneTexture& source = scene_.textures[size_t(index)];
     const std::string what = path_ + ": texture \"" + source.image_name + "\"";
@@ -142,7 +140,7 @@ int ExportTextures::image(int index, bool color) {
 
 int ExportTextures::texture(int texture, const texunit::SamplerState& state, bool color) {
     const int source = image(texture, color);
-    json exported = {{"sampler", index_of(samplers_, sampler_json(state))}};
+    json exported = {{"sampler", samplers_.index_of(sampler_json(state))}};
     const std::string extension(extension_of_type(images_[size_t(source)]["mimeType"].get<std::string>()));
     if (extension.empty()) {
         exported["source"] = source;
@@ -152,7 +150,7 @@ int ExportTextures::texture(int texture, const texunit::SamplerState& state, boo
     }
     const shading::LookupPolicy& policy = scene_.textures[size_t(texture)].policy;
     if (policy != shading::LookupPolicy()) exported["extras"]["rawtexel"]["policy"] = policy_json(policy);
-    return index_of(textures_, std::move(exported));
+    return textures_.index_of(std::move(exported));
 }
 
 }  // namespace rawtexel::scenes

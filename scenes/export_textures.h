@@ -23,19 +23,28 @@ class ExportTextures {
     /// Throws OutputError where PNG cannot hold the texels, and TextureError where they are damaged.
     int texture(int texture, const texunit::SamplerState& sampler, bool color);
 
-    const nlohmann::json& textures() const { return textures_; }
+    const nlohmann::json& textures() const { return textures_.array; }
     const nlohmann::json& images() const { return images_; }
-    const nlohmann::json& samplers() const { return samplers_; }
+    const nlohmann::json& samplers() const { return samplers_.array; }
     /// Extensions without which the textures cannot be read.
     const std::set<std::string>& extensions() const { return extensions_; }
 
   private:
+    /// Elements of which no two are equal.
+    struct DistinctElements {
+        nlohmann::json array = nlohmann::json::array();
+        std::map<nlohmann::json, int> index;
+
+        int index_of(nlohmann::json element);
+    };
+
     int image(int texture, bool color);
 
     const shading::Scene& scene_;
     std::string path_;
     ExportBuffer& buffer_;
-    nlohmann::json textures_ = nlohmann::json::array(), images_ = nlohmann::json::array(), samplers_ = nlohmann::json::array();
+    nlohmann::json images_ = nlohmann::json::array();
+    DistinctElements textures_, samplers_;
     std::set<std::string> extensions_;
     std::map<const void*, int> image_of_;  // by encoded bytes, or by texture where it was generated
 };

@@ -7,7 +7,6 @@
 
 #include "texunit/containers.h"
 
-#include <algorithm>
 #include <cstring>
 
 namespace rawtexel::scenes {
@@ -60,6 +59,12 @@ std::string_view mime_type_of(ContainerKind kind, std::string_view format) {
     return {};
 }
 
+std::string text_of(const shading::LookupPolicy& policy) {
+    std::string text;
+    for (const auto& [name, spelling] : policy_members(policy)) text += std::string(name) + " " + spelling + " ";
+    return text;
+}
+
 int extension_source(const tinygltf::Texture& texture, const char* extension) {
     const auto found = texture.extensions.find(extension);
     if (found == texture.extensions.end() || !found->second.Has("source")) return -1;
@@ -109,18 +114,16 @@ int GltfTextures::image_of(int index) {
 }
 
 int GltfTextures::texture(int index, bool srgb) {
-    const Entry wanted{image_of(index), srgb, policies_[size_t(index)]};
-    if (wanted.image < 0) return wanted.image;
-    const auto known = std::ranges::find(known_, wanted);
-    if (known != known_.end()) return int(known - known_.begin());
-
+    const int image = image_of(index);
+    if (image < 0) return image;
+    const shading::LookupPolicy& policy = policies_[size_t(index)];
+    const auto [entry, is_new] = known_.try_emplace({image, srgb, text_of(policy)}, int(textures_.size()));
+    if (!is_new) return entry->second;
     // The texels are the same whatever the policy.
-    const auto same_texels = [&](const Entry& entry) { return entry.image == wanted.image && entry.srgb == srgb; };
-    const auto alike = std::ranges::find_if(known_, same_texels);
-    textures_.push_back(alike == known_.end() ? make(wanted.image, srgb) : textures_[size_t(alike - known_.begin())]);
-    textures_.back().policy = wanted.policy;
-    known_.push_back(wanted);
-    return int(known_.size()) - 1;
+    const auto [texels, first] = texels_.try_emplace({image, srgb}, entry->second);
+    textures_.push_back(first ? make(image, srgb) : textures_[size_t(texels->second)]);
+    textures_.back().policy = policy;
+    return entry->second;
 }
 
 shading::SceneTexture GltfTextures::make(int image, bool srgb) const {

@@ -7,6 +7,10 @@
 
 #include "shading/scene.h"
 
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace rawtexel::scenes {
@@ -25,14 +29,6 @@ class GltfTextures {
     std::vector<shading::SceneTexture> take() { return std::move(textures_); }
 
   private:
-    /// An image seen as colour or data, and how it is looked up.
-    struct Entry {
-        int image;
-        bool srgb;
-        shading::LookupPolicy policy;
-        bool operator==(const Entry&) const = default;
-    };
-
     int image_of(int texture);  ///< -1: none
     shading::SceneTexture make(int image, bool srgb) const;
     std::unique_ptr<texunit::TexelSource> open(int image, bool srgb) const;
@@ -42,8 +38,9 @@ class GltfTextures {
     texunit::ContainerOptions file_options_;
     GltfNotices& notices_;
     std::vector<shading::SceneTexture> textures_;
-    std::vector<shading::LookupPolicy> policies_;  ///< of the document's textures
-    std::vector<Entry> known_;                     ///< what each of textures_ was made for
+    std::vector<shading::LookupPolicy> policies_;              ///< of the document's textures
+    std::map<std::tuple<int, bool, std::string>, int> known_;  ///< (image, srgb, policy as text) to index
+    std::map<std::pair<int, bool>, int> texels_;               ///< (image, srgb) to the first of those that share its texels
 };
 
 }  // namespace rawtexel::scenes
