@@ -172,7 +172,8 @@ std::vector<ExplainedNumber> PixelWatcher::numbers_of(const shading::MaterialSta
     if (material.blend == shading::Blend::Draw && (projects(&material) || std::ranges::any_of(layers, projects)))
         add("plane", Dimension::Plane);
     const bool lit = !(layers.empty() ? material : *layers[0]).material->unlit;
-    if (filtering_.shadow_taps == shading::ShadowTaps::One && lit) add_pair("light", "light y", Dimension::Light, Dimension::LightY);
+    if (filtering_.shadow_taps == shading::ShadowTaps::One && lit && lighting_.shadow)
+        add_pair("light", "light y", Dimension::Light, Dimension::LightY);
     address.surface = surface;
     if (filtering_.texture_jitter != shading::TextureJitter::None)
         add_pair("texture x", "texture y", Dimension::TextureX, Dimension::TextureY);

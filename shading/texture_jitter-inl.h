@@ -29,17 +29,17 @@ class TextureSteps {
     HWY_NOINLINE void find(const SampleBlock& block, WaveMask lanes, uint32_t sample, bool layered) {
         texunit::RandomAddress address{
             .x = uint32_t(block.x), .y = uint32_t(block.y), .sample = sample, .dimension = texunit::Dimension::TextureX, .seed = seed_};
-        WaveFloat x, y;
-        const raster::SetupTriangle* numbered = nullptr;
-        for (WaveMask rest = lanes; rest != 0; rest &= rest - 1) {
-            const int lane = std::countr_zero(rest);
-            const raster::SetupTriangle& triangle = block.frame.triangle(block.setup_index[lane]);
-            if (numbered == nullptr || (layered && numbered->triangle_id != triangle.triangle_id)) {
-                address.surface = layered ? 1 + triangle.triangle_id : 0;
-                noise_pair_wave(noise_, address, texunit::Dimension::TextureY, x, y);
-                numbered = &triangle;
+        const auto surface_of = [&](int lane) { return layered ? 1 + block.frame.triangle(block.setup_index[lane]).triangle_id : 0; };
+        for (WaveMask rest = lanes; rest != 0;) {
+            address.surface = surface_of(std::countr_zero(rest));
+            WaveFloat x, y;
+            noise_pair_wave(noise_, address, texunit::Dimension::TextureY, x, y);
+            for (WaveMask others = rest; others != 0; others &= others - 1) {
+                const int lane = std::countr_zero(others);
+                if (surface_of(lane) != address.surface) continue;
+                rest &= ~(WaveMask{1} << lane);
+                find_lane(block, lane, filtered_offset(filter_, x[lane], y[lane]));
             }
-            find_lane(block, lane, triangle, filtered_offset(filter_, x[lane], y[lane]));
         }
     }
 
@@ -65,14 +65,14 @@ class TextureSteps {
     /// longer than this many of the derivatives'.
     static constexpr double kLongest = 16.0;
 
-    void find_lane(const SampleBlock& block, int lane, const raster::SetupTriangle& triangle, raster::SampleOffset offset) {
+    void find_lane(const SampleBlock& block, int lane, raster::SampleOffset offset) {
         const raster::SampleOffset from = block.offset[lane];
         const double x = double(offset.x - from.x) / raster::kSampleOne, y = double(offset.y - from.y) / raster::kSampleOne;
         double longer = 1.0;
         if (mode_ == TextureJitter::Perspective) {
-            const raster::PerspectiveSlope slope =
-                perspective_slope(triangle, block.x + lane % texunit::kWaveWidth + double(from.x) / raster::kSampleOne,
-                                  block.y + lane / texunit::kWaveWidth + double(from.y) / raster::kSampleOne);
+            const raster::PerspectiveSlope slope = perspective_slope(
+                block.frame.triangle(block.setup_index[lane]), block.x + lane % texunit::kWaveWidth + double(from.x) / raster::kSampleOne,
+                block.y + lane / texunit::kWaveWidth + double(from.y) / raster::kSampleOne);
             const double depth = 1.0 + slope.dx * x + slope.dy * y;
             longer = depth > 1.0 / kLongest ? 1.0 / depth : kLongest;
         }
