@@ -12,16 +12,23 @@ using shading::ShadowTaps;
 using shading::TextureJitter;
 using texunit::Estimator;
 
+texunit::Estimator read_estimator(const std::string& text) {
+    return parse_choice("--estimator", text, {Estimator::All, Estimator::Reservoir, Estimator::Jitter, Estimator::AbsWeight});
+}
+texunit::Noise read_noise(const std::string& text) {
+    using texunit::Noise;
+    return parse_choice("--noise", text, {Noise::White, Noise::Sobol, Noise::R2, Noise::Blue, Noise::Stbn});
+}
+int read_taps(const std::string& text) { return int(parse_integer("--taps", text, 1, shading::kMostTaps)); }
+bool read_common_numbers(const std::string& text) { return parse_word("--signed-numbers", text, {"independent", "common"}) == 1; }
+
 void declare_filtering_options(CommandLine& line, FilteringOptions& filtering) {
     line.option("--estimator", "all|reservoir|jitter|abs-weight",
                 "every tap weighed (the default); one drawn from the weights, two where a kernel has negative lobes; the coordinate "
                 "jittered, then the nearest texel; one drawn by magnitude, for comparison",
-                [&](const std::string& text) {
-                    filtering.estimator =
-                        parse_choice("--estimator", text, {Estimator::All, Estimator::Reservoir, Estimator::Jitter, Estimator::AbsWeight});
-                });
+                [&](const std::string& text) { filtering.estimator = read_estimator(text); });
     line.option("--taps", "K", "draws a lookup, 1 to " + std::to_string(shading::kMostTaps) + " (default 1)",
-                [&](const std::string& text) { filtering.taps = int(parse_integer("--taps", text, 1, shading::kMostTaps)); });
+                [&](const std::string& text) { filtering.taps = read_taps(text); });
     line.option("--order", "before|after",
                 "maps are filtered, then shaded; or raw texels are shaded, then filtered (default before with all, after with an estimator "
                 "that draws)",
@@ -34,10 +41,7 @@ void declare_filtering_options(CommandLine& line, FilteringOptions& filtering) {
                     filtering.sharing = parse_choice("--random", text, {NumberSharing::Shared, NumberSharing::PerMap});
                 });
     line.option("--noise", "white|sobol|r2|blue|stbn", "numbers of the draws: one of `rawtexel list noises` (default white)",
-                [&](const std::string& text) {
-                    using texunit::Noise;
-                    filtering.noise = parse_choice("--noise", text, {Noise::White, Noise::Sobol, Noise::R2, Noise::Blue, Noise::Stbn});
-                });
+                [&](const std::string& text) { filtering.noise = read_noise(text); });
     line.option("--blend", "all|draw",
                 "planes of triplanar materials and layers of layered ones: every one looked up and weighed, or one drawn at each point "
                 "(default draw with an estimator that draws, else all)",
@@ -58,9 +62,7 @@ void declare_filtering_options(CommandLine& line, FilteringOptions& filtering) {
         });
     line.option("--signed-numbers", "independent|common",
                 "numbers of the draws from positive and from negative weights: their own (the default), or the same",
-                [&](const std::string& text) {
-                    filtering.common_numbers = parse_word("--signed-numbers", text, {"independent", "common"}) == 1;
-                });
+                [&](const std::string& text) { filtering.common_numbers = read_common_numbers(text); });
 }
 
 void check_filtering(const FilteringOptions& filtering, const std::optional<texunit::Kernel>& filter) {

@@ -1,5 +1,6 @@
 #include "cli/sample_request.h"
 
+#include "cli/filtering_options.h"
 #include "cli/footprint_options.h"
 #include "cli/limits.h"
 #include "cli/option_values.h"
@@ -69,23 +70,16 @@ void declare_sampler(CommandLine& line, SampleRequest& request) {
 }
 
 void declare_draws(CommandLine& line, SampleRequest& request) {
-    using texunit::Estimator;
-    using texunit::Noise;
     SampleRequest::Draws& draws = request.draws;
     line.group("Draws");
     line.option("--estimator", "all|reservoir|jitter|abs-weight",
                 "every tap weighed (the default), or one drawn: from the weights, two where a kernel has negative lobes; by jittering the "
                 "coordinate; by the magnitude of its weight, for comparison",
-                [&](const std::string& text) {
-                    request.lookup.filtering.estimator =
-                        parse_choice("--estimator", text, {Estimator::All, Estimator::Reservoir, Estimator::Jitter, Estimator::AbsWeight});
-                });
+                [&](const std::string& text) { request.lookup.filtering.estimator = read_estimator(text); });
     line.option("--taps", "K", "draws, averaged, 1 to " + std::to_string(shading::kMostTaps) + " (default 1)",
-                [&](const std::string& text) { draws.taps = int(parse_integer("--taps", text, 1, shading::kMostTaps)); });
+                [&](const std::string& text) { draws.taps = read_taps(text); });
     line.option("--noise", "white|sobol|r2|blue|stbn", "their numbers: one of `rawtexel list noises` (default white)",
-                [&](const std::string& text) {
-                    draws.noise = parse_choice("--noise", text, {Noise::White, Noise::Sobol, Noise::R2, Noise::Blue, Noise::Stbn});
-                });
+                [&](const std::string& text) { draws.noise = read_noise(text); });
     line.option("--seed", "S", "of all numbers, 0 to " + std::to_string(UINT32_MAX) + " (default 0)",
                 [&](const std::string& text) { draws.seed = uint32_t(parse_integer("--seed", text, 0, UINT32_MAX)); });
     line.option("--pixel", "X,Y", "whose numbers they are, as `rawtexel explain` names it (default 0,0)", [&](const std::string& text) {
@@ -97,9 +91,7 @@ void declare_draws(CommandLine& line, SampleRequest& request) {
                 [&](const std::string& text) { draws.sample = uint32_t(parse_integer("--sample", text, 0, kMaxSamples - 1)); });
     line.option("--signed-numbers", "independent|common",
                 "numbers of the draws from positive and from negative weights: their own (the default), or the same",
-                [&](const std::string& text) {
-                    draws.common_numbers = parse_word("--signed-numbers", text, {"independent", "common"}) == 1;
-                });
+                [&](const std::string& text) { draws.common_numbers = read_common_numbers(text); });
 }
 
 /// Refuses draws where none are made, and those that the kernel does not have.

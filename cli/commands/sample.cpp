@@ -77,8 +77,7 @@ class SampleCommand : public Command {
         line.arguments("TEXTURE", "a .dds or .ktx2 file, or any image", 1, 1, words_);
         line.flag("--json",
                   "one JSON object instead of a table: \"lod\", \"anisotropy\", \"precision\", \"taps\" and \"result\", and \"estimator\" "
-                  "where it "
-                  "draws; with @FILE one a line, always",
+                  "where it draws; with @FILE one a line, always",
                   json_);
         declare_sample_request(line, request_);
     }

@@ -12,8 +12,8 @@ struct PlotPoint {
 
 struct PlotSeries {
     std::string name;  ///< in the legend
-    std::vector<PlotPoint>
-        points;            ///< joined in this order; those that are not finite, or not above 0 on a logarithmic axis, break the line
+    /// Joined in this order; those that are not finite, or not above 0 on a logarithmic axis, break the line.
+    std::vector<PlotPoint> points;
     bool markers = false;  ///< on every point
 };
 

@@ -65,12 +65,7 @@ TEST(SampleDraw, TellsTheTexelAndTheNumbersThatChoseIt) {
 
 TEST(SampleDraw, AveragesToWhatAllTapsMakeInEveryShape) {
     const TemporaryFolder folder;
-    const std::string flat = test::write_dds(folder, "flat.dds", {.width = 13, .height = 7, .levels = 2}, FileFormat::Rgba8Srgb);
-    const std::string array = test::write_dds(folder, "array.dds", {.width = 8, .height = 8, .layers = 3}, FileFormat::Rgba8Unorm);
-    const std::string volume =
-        test::write_dds(folder, "volume.dds", {.width = 8, .height = 6, .depth = 5, .levels = 2}, FileFormat::Rgba8Unorm);
-    const std::string cube =
-        test::write_dds(folder, "cube.dds", {.width = 8, .height = 8, .layers = 12, .cube = true}, FileFormat::Rgba8Unorm);
+    const auto [flat, array, volume, cube] = test::write_shapes(folder);
     const std::pair<const std::string*, std::vector<std::string>> places[] = {
         {&flat, {"--uv", "-0.07,1.31", "--ddx", "0.11,0.02", "--ddy", "-0.01,0.3", "--wrap", "border", "--border", "0.5,1,2,0.25"}},
         {&flat, {"--uv", "0.93,0.11", "--ddx", "0.4,0.1", "--ddy", "0,0.1", "--aniso", "8"}},

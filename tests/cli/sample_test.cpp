@@ -57,12 +57,7 @@ TEST(Sample, TellsEveryTapOfALookup) {
 
 TEST(Sample, AddsUpForEveryKernelWrapAndShape) {
     const TemporaryFolder folder;
-    const std::string flat = test::write_dds(folder, "flat.dds", {.width = 13, .height = 7, .levels = 2}, FileFormat::Rgba8Srgb);
-    const std::string array = test::write_dds(folder, "array.dds", {.width = 8, .height = 8, .layers = 3}, FileFormat::Rgba8Unorm);
-    const std::string volume =
-        test::write_dds(folder, "volume.dds", {.width = 8, .height = 6, .depth = 5, .levels = 2}, FileFormat::Rgba8Unorm);
-    const std::string cube =
-        test::write_dds(folder, "cube.dds", {.width = 8, .height = 8, .layers = 12, .cube = true}, FileFormat::Rgba8Unorm);
+    const auto [flat, array, volume, cube] = test::write_shapes(folder);
     const std::vector<std::string> wraps{"repeat", "mirror,clamp", "clamp", "border", "mirror-once,repeat"};
     size_t n = 0;
     for (const char* filter : {"nearest", "bilinear", "quadratic", "bspline", "mitchell", "mitchell:2,-1", "catmull-rom", "lanczos2",

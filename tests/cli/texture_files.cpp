@@ -56,6 +56,13 @@ Bytes header(const texunit::Shape& shape, FileFormat format) {
 
 }  // namespace
 
+ShapeFiles write_shapes(const TemporaryFolder& folder) {
+    return {.flat = write_dds(folder, "flat.dds", {.width = 13, .height = 7, .levels = 2}, FileFormat::Rgba8Srgb),
+            .array = write_dds(folder, "array.dds", {.width = 8, .height = 8, .layers = 3}, FileFormat::Rgba8Unorm),
+            .volume = write_dds(folder, "volume.dds", {.width = 8, .height = 6, .depth = 5, .levels = 2}, FileFormat::Rgba8Unorm),
+            .cube = write_dds(folder, "cube.dds", {.width = 8, .height = 8, .layers = 12, .cube = true}, FileFormat::Rgba8Unorm)};
+}
+
 uint8_t code_of(int level, int slice, int x, int y, int c) {
     uint32_t hash = uint32_t(level) * 0x9E3779B1u + uint32_t(slice) * 0x85EBCA77u + uint32_t(x) * 0xC2B2AE3Du + uint32_t(y) * 0x27D4EB2Fu +
                     uint32_t(c) * 0x165667B1u;

@@ -28,6 +28,13 @@ enum class FileFormat : uint32_t {
 /// Floats are code_of / 255. Returns the path.
 std::string write_dds(const TemporaryFolder& folder, const std::string& name, const texunit::Shape& shape, FileFormat format);
 
+/// One such file of each shape: flat 13x7 with 2 levels in sRGB, an array of 3 layers, a volume of 8x6x5 with 2 levels, an array of 2
+/// cubes.
+struct ShapeFiles {
+    std::string flat, array, volume, cube;
+};
+ShapeFiles write_shapes(const TemporaryFolder& folder);
+
 /// Channel `c` of a texel of such a file with four channels of 8 bits.
 uint8_t code_of(int level, int slice, int x, int y, int c);
 /// With 16 bits; as 8 bits they lie anywhere between two codes.

@@ -7,8 +7,12 @@
 
 #include "tests/texunit/lookup_draw.h"
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cmath>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace rawtexel::texunit {
@@ -34,6 +38,32 @@ inline JudgedLookup judged(const reference::Lookup3& at, double layer = 0) {
 inline JudgedColour colour_of(const WaveColor& colour, int i) {
     return {colour.channel[0][i], colour.channel[1][i], colour.channel[2][i], colour.channel[3][i]};
 }
+
+/// Of lookups with a mistake, those refused, by their likely cause.
+struct Refusals {
+    int asked = 0, refused = 0;
+    std::map<std::string, int> causes;
+
+    /// Looks for the causes of the first twelve alone: each takes many verdicts.
+    void count(const JudgedTexture& texture, const SamplerState& sampler, const JudgedLookup& lookup, const JudgedColour& colour,
+               const LegalPrecision& precision) {
+        ++asked;
+        if (judge_lookup(texture, sampler, lookup, colour, precision).legal) return;
+        if (++refused <= 12) ++causes[likely_cause(texture, sampler, lookup, colour, precision)];
+    }
+    std::string all_causes() const {
+        std::string all;
+        for (const auto& [name, count] : causes) all += " '" + name + "' " + std::to_string(count);
+        return all;
+    }
+    /// How many have this cause, expecting some, and a share of `least` to be refused.
+    int expect(double least, const std::string& cause) const {
+        EXPECT_GE(refused, least * asked) << cause << ": " << refused << " of " << asked;
+        const auto named = causes.find(cause);
+        EXPECT_NE(named, causes.end()) << "not named as '" << cause << "':" << all_causes();
+        return named == causes.end() ? 0 : named->second;
+    }
+};
 
 /// The precision we promise ourselves: nothing but the 8 fractional bits, and what float arithmetic and 8-bit texels need.
 inline constexpr LegalPrecision kOurs{.coordinate_bits = 23, .derivative_bits = 20, .approximate_scale = false, .colour_threshold = 4e-6};

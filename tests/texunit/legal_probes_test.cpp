@@ -94,11 +94,6 @@ class ProbeMistakes : public testing::Test {
     };
     using Change = std::function<void(Rule&, const reference::Lookup&)>;
 
-    struct Refusals {
-        int asked = 0, refused = 0;
-        std::map<std::string, int> causes;
-    };
-
     JudgedColour mean_of_probes(const SamplerState& sampler, const reference::Lookup& at, const Rule& rule) {
         SamplerState one = sampler;
         one.probes = 1;
@@ -135,10 +130,7 @@ class ProbeMistakes : public testing::Test {
                 change(rule, at);
                 const JudgedColour colour = mean_of_probes(sampler, at, rule);
                 const JudgedTexture reference = judged(texture_);
-                ++found.asked;
-                if (judge_lookup(reference, sampler, judged(at), colour, kOurs).legal) continue;
-                ++found.refused;
-                if (found.refused <= 12) ++found.causes[likely_cause(reference, sampler, judged(at), colour, kOurs)];
+                found.count(reference, sampler, judged(at), colour, kOurs);
             }
         }
         return found;
@@ -149,12 +141,7 @@ class ProbeMistakes : public testing::Test {
             SamplerState sampler = anisotropic_;
             sampler.lod_rule = lod_rule;
             const Refusals found = refusals(sampler, least_probes, change);
-            EXPECT_GE(found.refused, least * found.asked) << cause << ": " << found.refused << " of " << found.asked;
-            std::string all;
-            for (const auto& [name, count] : found.causes) all += " '" + name + "' " + std::to_string(count);
-            const auto named = found.causes.find(cause);
-            ASSERT_NE(named, found.causes.end()) << "not named as '" << cause << "':" << all;
-            EXPECT_GE(named->second, 6) << all;
+            EXPECT_GE(found.expect(least, cause), 6) << found.all_causes();
         }
     }
 

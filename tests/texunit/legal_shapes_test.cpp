@@ -115,11 +115,6 @@ TEST(LegalShapes, HoldOurCubeMapsAcrossEdgesAndCorners) {
 /// Lookups answered rightly and asked wrongly: the difference is the mistake.
 class ShapeMistakes : public testing::Test {
   protected:
-    /// Of lookups whose question is changed by `change`, those refused, by their likely cause.
-    struct Refusals {
-        int asked = 0, refused = 0;
-        std::map<std::string, int> causes;
-    };
     using Change = std::function<void(JudgedTexture&, SamplerState&, JudgedLookup&)>;
 
     static ShapedLookup ordinary(LookupDraw& draw, const Shape& shape) {
@@ -135,6 +130,7 @@ class ShapeMistakes : public testing::Test {
         return lookup;
     }
 
+    /// Of lookups whose question is changed by `change`.
     static Refusals refusals(const Shape& shape, const SamplerState& sampler, const Change& change) {
         const auto texture = hashed_texture(shape);
         LookupDraw draw({shape.width, shape.height, shape.depth}, texture->shape().levels, 9);
@@ -148,22 +144,15 @@ class ShapeMistakes : public testing::Test {
                 SamplerState state = sampler;
                 JudgedLookup at = judged(lookups[size_t(i)].at, lookups[size_t(i)].layer);
                 change(asked, state, at);
-                ++found.asked;
-                if (judge_lookup(asked, state, at, colour_of(colour, i), kOurs).legal) continue;
-                ++found.refused;
-                if (found.refused <= 12) ++found.causes[likely_cause(asked, state, at, colour_of(colour, i), kOurs)];
+                found.count(asked, state, at, colour_of(colour, i), kOurs);
             }
         }
         return found;
     }
 
     static void expect_refused(const Refusals& found, double least, const std::string& cause) {
-        EXPECT_GE(found.refused, least * found.asked) << cause << ": " << found.refused << " of " << found.asked;
-        std::string all;
-        for (const auto& [name, count] : found.causes) all += " '" + name + "' " + std::to_string(count);
-        const auto named = found.causes.find(cause);
-        ASSERT_NE(named, found.causes.end()) << "not named as '" << cause << "':" << all;
-        for (const auto& [name, count] : found.causes) EXPECT_LE(count, named->second) << all;
+        const int named = found.expect(least, cause);
+        for (const auto& [name, count] : found.causes) EXPECT_LE(count, named) << found.all_causes();
     }
 
     static constexpr Shape kArray{.width = 64, .height = 64, .layers = 6};
