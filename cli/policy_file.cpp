@@ -22,13 +22,13 @@ LookupPolicy parse_policy(const std::string& path, const std::string& place, con
     LookupPolicy policy;
     for (const auto& [name, value] : json.items()) {
         using enum shading::PolicyMemberResult;
-        const std::string member = place + "." + scenes::one_line(name);
+        const std::string member = place + "." + scenes::shortened(name);
         const std::string spelling = value.is_string() ? value.get<std::string>() : std::string();
         switch (set_policy_member(policy, name, spelling)) {
             case Set: break;
             case UnknownName: fail(path, member + " is unknown (allowed: order, estimator, filter, mip)");
             case UnknownValue:
-                fail(path, member + " is " + scenes::one_line(value.dump(-1, ' ', false, Json::error_handler_t::replace)) +
+                fail(path, member + " is " + scenes::shortened(value.dump(-1, ' ', false, Json::error_handler_t::replace)) +
                                " (allowed: what the option of this name takes)");
         }
     }
@@ -67,7 +67,7 @@ void apply_policy_file(const std::string& path, shading::Scene& scene) {
             apply_group(path, group, policies, scene.textures,
                         [](const shading::SceneTexture& texture) { return texture.texture->name(); });
         } else {
-            fail(path, "unknown member '" + scenes::one_line(group) + "' (allowed: materials, textures)");
+            fail(path, "unknown member '" + scenes::shortened(group) + "' (allowed: materials, textures)");
         }
     }
 }

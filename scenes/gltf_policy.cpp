@@ -13,7 +13,7 @@ shading::LookupPolicy read_policy(const GltfDocument& document, const std::strin
     for (const std::string& name : members.Keys()) {
         const std::string spelling = members.Get(name).Get<std::string>();
         if (set_policy_member(policy, name, spelling) != shading::PolicyMemberResult::Set)
-            document.fail(place + ".extras.rawtexel.policy." + name + " is \"" + one_line(spelling) +
+            document.fail(place + ".extras.rawtexel.policy." + name + " is \"" + shortened(spelling) +
                           "\" (allowed: what the option of this name takes)");
     }
     return policy;
