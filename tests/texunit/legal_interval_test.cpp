@@ -51,6 +51,29 @@ TEST(LegalInterval, HoldsOurGpuPrecisionAtEightBits) {
     }
 }
 
+/// Far from the origin a coordinate's bits leave a good part of a texel open, over which curved weights are not linear.
+TEST(LegalInterval, HoldsCurvedKernelsFarFromTheOrigin) {
+    constexpr int kWidth = 21, kHeight = 12;
+    Texture texture("hashed", make_hashed_pyramid(Format::RGBA8Unorm, kWidth, kHeight));
+    const JudgedTexture reference = judged(texture);
+    LookupDraw draw({kWidth, kHeight, 1}, 1, 17);
+    for (const Kernel& kernel : {Kernel(Kernel::Quadratic), Kernel(Kernel::BSpline), Kernel::mitchell(), Kernel(Kernel::CatmullRom)}) {
+        const SamplerState sampler{.magnify = kernel, .minify = kernel, .mip = MipMode::None, .precision = Precision::Gpu};
+        for (int wave = 0; wave < 2; ++wave) {
+            std::vector<reference::Lookup> lookups;
+            for (int i = 0; i < kWaveLanes; ++i)
+                lookups.push_back({std::exp2(draw.uniform(14, 17)), -std::exp2(draw.uniform(14, 17)), 0, 0, 0, 0});
+            WaveColor colour;
+            sample_wave(texture, sampler, gather(lookups, 0), kWaveFull, colour);
+            for (int i = 0; i < kWaveLanes; ++i) {
+                const LegalVerdict verdict = judge_lookup(reference, sampler, judged(lookups[size_t(i)]), colour_of(colour, i), kOurs);
+                ASSERT_TRUE(verdict.legal) << to_string(verdict, colour_of(colour, i)) << "\n"
+                                           << describe(sampler) << describe(lookups[size_t(i)]);
+            }
+        }
+    }
+}
+
 /// How many of many lookups are refused when the sampler that answers is not the one that was asked.
 class Mistakes : public testing::Test {
   protected:
