@@ -20,4 +20,9 @@ struct SampleOffset {
     bool operator==(const SampleOffset&) const = default;
 };
 
+/// The offsets from `x_min` to `x_max` and from `y_min` to `y_max`, ends included.
+struct OffsetRange {
+    int32_t x_min = 0, x_max = 0, y_min = 0, y_max = 0;
+};
+
 }  // namespace rawtexel::raster

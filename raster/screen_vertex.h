@@ -26,29 +26,4 @@ struct SnappedPosition {
 /// To 1/256 pixel, nearest, ties to even (D3D11.3, "Coordinate Snapping"). The vertex lies in the view volume's guard band.
 SnappedPosition snap(const ScreenVertex& v);
 
-/// Object space to homogeneous pixels: the same bits for the same position and matrix, whatever the triangle.
-class VertexTransform {
-  public:
-    VertexTransform(const Draw& draw, const FrameOptions& options);
-    ScreenVertex operator()(uint32_t vertex) const;
-
-  private:
-    const glm::vec3* positions_;
-    double matrix_[4][4];              ///< columns, as in GLM
-    double half_width_, half_height_;  ///< pixels
-};
-
-/// Remembers the vertices transformed last, which the triangles of a mesh ask for again and again.
-class VertexCache {
-  public:
-    explicit VertexCache(const VertexTransform& transform);
-    const ScreenVertex& operator[](uint32_t vertex);
-
-  private:
-    static constexpr uint32_t kSlots = 256;
-    const VertexTransform& transform_;
-    std::array<uint32_t, kSlots> vertex_;
-    std::array<ScreenVertex, kSlots> value_;
-};
-
 }  // namespace rawtexel::raster
