@@ -36,9 +36,11 @@ ClusterCull::ClusterCull(const Draw& draw, const FrameOptions& options, const Ti
     // Positive where a vertex lies beside every sample point, as TriangleSetup::outside_samples has it.
     constexpr double slack = 1.0 / kSubpixelOne;
     const SampleBox& box = grid.sample_box();
-    beyond_samples_ = {combine(double(box.x_min) / kSampleOne - slack, w_, -1, x_), combine(1, x_, -double(box.x_max) / kSampleOne - slack, w_),
-                       combine(double(box.y_min) / kSampleOne - slack, w_, -1, y_), combine(1, y_, -double(box.y_max) / kSampleOne - slack, w_)};
-    guard_ = {combine(kGuardBand, w_, 1, x_), combine(kGuardBand, w_, -1, x_), combine(kGuardBand, w_, 1, y_), combine(kGuardBand, w_, -1, y_)};
+    beyond_samples_ = {
+        combine(double(box.x_min) / kSampleOne - slack, w_, -1, x_), combine(1, x_, -double(box.x_max) / kSampleOne - slack, w_),
+        combine(double(box.y_min) / kSampleOne - slack, w_, -1, y_), combine(1, y_, -double(box.y_max) / kSampleOne - slack, w_)};
+    guard_ = {combine(kGuardBand, w_, 1, x_), combine(kGuardBand, w_, -1, x_), combine(kGuardBand, w_, 1, y_),
+              combine(kGuardBand, w_, -1, y_)};
 
     // The generalised cross product of the three rows: for the corners p of a triangle, det(x, y, w) = (p1-p0)x(p2-p0) . (eye_w*p0 - eye).
     const glm::dvec3 &a = x_.slope, &b = y_.slope, &c = w_.slope;
@@ -62,14 +64,24 @@ ClusterView ClusterCull::view(const Cluster& cluster) const {
     ClusterView view;
     if (!cluster.finite) return view;
     const Range z = range_over(z_, cluster), w = range_over(w_, cluster), before_near = range_over(combine(1, w_, -1, z_), cluster);
-    view.outside = before_near.high < 0 || z.high < 0 || w.high < 0 ||
-                   std::any_of(beyond_samples_.begin(), beyond_samples_.end(), [&](const Form& f) { return range_over(f, cluster).low > 0; });
+    view.outside =
+        before_near.high < 0 || z.high < 0 || w.high < 0 ||
+        std::any_of(beyond_samples_.begin(), beyond_samples_.end(), [&](const Form& f) { return range_over(f, cluster).low > 0; });
     if (view.outside) return view;
     view.unclipped = before_near.low >= 0 && z.low >= 0 && w.low > std::numeric_limits<float>::min() &&
                      std::all_of(guard_.begin(), guard_.end(), [&](const Form& f) { return range_over(f, cluster).low >= 0; });
     if (w.low > 0) view.nearest = float(std::clamp(z.high / w.low * (1 + kRounding), 0.0, 1.0)) * (1 + 0x1p-22f);
-    if (view.unclipped) find_facing(cluster, w, view);
+    if (!view.unclipped) return view;
+    view.box = box_over(range_over(x_, cluster), range_over(y_, cluster), w);
+    find_facing(cluster, w, view);
     return view;
+}
+
+SampleBox ClusterCull::box_over(const Range& x, const Range& y, const Range& w) {
+    // A whole unit of 1/256 pixel covers snapping and the rounding here.
+    const auto low = [&](double v) { return int64_t(std::floor(v / (v < 0 ? w.low : w.high) * kSubpixelOne)) - 1; };
+    const auto high = [&](double v) { return int64_t(std::ceil(v / (v < 0 ? w.high : w.low) * kSubpixelOne)) + 1; };
+    return {2 * low(x.low), 2 * high(x.high), 2 * low(y.low), 2 * high(y.high)};
 }
 
 void ClusterCull::find_facing(const Cluster& cluster, const Range& w, ClusterView& view) const {
@@ -87,7 +99,8 @@ void ClusterCull::find_facing(const Cluster& cluster, const Range& w, ClusterVie
 
     // The inscribed circle on the screen: doubled area = det/(w0*w1*w2), edges at most the projection's greatest stretch longer.
     const Range x = range_over(x_, cluster), y = range_over(y_, cluster);
-    const double screen_x = std::max(std::abs(x.low), std::abs(x.high)) / w.low, screen_y = std::max(std::abs(y.low), std::abs(y.high)) / w.low;
+    const double screen_x = std::max(std::abs(x.low), std::abs(x.high)) / w.low,
+                 screen_y = std::max(std::abs(y.low), std::abs(y.high)) / w.low;
     const double w_slope = glm::length(w_.slope);
     const double stretch = std::hypot(glm::length(x_.slope) + screen_x * w_slope, glm::length(y_.slope) + screen_y * w_slope) / w.low;
     const double inradius = double(cluster.least_inradius) * least / (w.high * w.high * w.high * stretch);

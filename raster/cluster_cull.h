@@ -16,6 +16,7 @@ struct ClusterView {
     bool facing_away = false;  ///< every triangle that has an area once snapped is a back face; asks for `unclipped`
     bool facing = false;       ///< likewise a front face
     float nearest = 1.0f;      ///< no depth of it is greater
+    SampleBox box{};           ///< holds all of it once snapped; asks for `unclipped`
 };
 
 /// Tests the clusters of one draw.
@@ -37,6 +38,7 @@ class ClusterCull {
     /// Over the cluster's box, widened by more than rounding moves the vertices' own values.
     static Range range_over(const Form& form, const Cluster& cluster);
     static Form combine(double p, const Form& f, double q, const Form& g);
+    static SampleBox box_over(const Range& x, const Range& y, const Range& w);
     void find_facing(const Cluster& cluster, const Range& w, ClusterView& view) const;
 
     Form x_, y_, z_, w_;  ///< homogeneous pixels, as ScreenVertex

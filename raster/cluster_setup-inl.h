@@ -10,6 +10,7 @@
 #include "raster/cluster_setup.h"
 #include "raster/triangle_setup.h"
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -26,8 +27,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using SetupDoubles = hn::CappedTag<double, 8>;
 using SetupFloats = hn::Rebind<float, SetupDoubles>;
+using SetupWide = hn::Rebind<int64_t, SetupDoubles>;
 using SetupInts = hn::Rebind<int32_t, SetupDoubles>;
-using SetupBytes = hn::Rebind<uint8_t, SetupDoubles>;
 using Double = hn::Vec<SetupDoubles>;
 using Int = hn::Vec<SetupInts>;
 
@@ -64,14 +65,16 @@ class ClusterSetup {
         size_t triangles = 0;
         for (const VisibleCluster& visible : clusters)
             triangles += inputs_.draws[visible.draw].clusters->clusters[visible.cluster].triangle_count;
-        batch_.entries.reserve(triangles + triangles / 4);
+        batch_.entries.resize(triangles + triangles / 4 + kClusterTriangles);
         batch_.counts.triangles += triangles;
         for (const VisibleCluster& visible : clusters) add(visible);
         append_pieces(capacity);
+        batch_.entries.resize(entry_count_);
+        hwy::FlushStream();
     }
 
   private:
-    static constexpr size_t kVertices = 256;  // what a byte can name, so that no lane beyond the last triangle reads past the end
+    static constexpr size_t kVertices = 3 * kClusterTriangles, kRoom = kClusterTriangles + 8;
 
     void add(const VisibleCluster& visible) {
         draw_ = &inputs_.draws[visible.draw];
@@ -103,23 +106,20 @@ class ClusterSetup {
             const Double clip_x = x_form.at(px, py, pz), clip_y = y_form.at(px, py, pz);
             const Double z = z_form.at(px, py, pz), w = w_form.at(px, py, pz);
             const Double x = hn::Mul(hn::Add(w, clip_x), half_width), y = hn::Mul(hn::Sub(w, clip_y), half_height);
-            hn::Store(x, d, x_ + i);
-            hn::Store(y, d, y_ + i);
-            hn::Store(z, d, z_ + i);
-            hn::Store(w, d, w_ + i);
+            hn::StoreInterleaved2(x, y, d, xy_ + 2 * i);
+            hn::StoreInterleaved2(z, w, d, zw_ + 2 * i);
             // As snap() and depth_of() have it; of vertices that a plane clips nobody looks at these.
             const auto snapped = [&](Double v) HWY_ATTR {
                 const Double rounded = hn::Round(hn::Mul(hn::Div(v, w), subpixel));
                 return hn::DemoteTo(di, hn::Min(hn::Max(rounded, hn::Neg(limit)), limit));
             };
-            hn::Store(snapped(x), di, snapped_x_ + i);
-            hn::Store(snapped(y), di, snapped_y_ + i);
-            hn::Store(hn::Add(hn::Min(hn::Max(hn::Div(z, w), zero), one), zero), d, depth_ + i);
-            hn::Store(hn::Div(one, w), d, inverse_w_ + i);
+            hn::StoreInterleaved2(snapped(x), snapped(y), di, snapped_ + 2 * i);
+            const Double depth = hn::Add(hn::Min(hn::Max(hn::Div(z, w), zero), one), zero);
+            hn::StoreInterleaved2(depth, hn::Div(one, w), d, depth_and_inverse_w_ + 2 * i);
         }
     }
 
-    ScreenVertex vertex(size_t i) const { return {x_[i], y_[i], z_[i], w_[i]}; }
+    ScreenVertex vertex(size_t i) const { return {xy_[2 * i], xy_[2 * i + 1], zw_[2 * i], zw_[2 * i + 1]}; }
 
     static constexpr uint32_t kNotFinite = 1u << kClipPlanes;
 
@@ -167,16 +167,14 @@ class ClusterSetup {
     HWY_INLINE uint64_t cull(uint64_t whole) {
         const SetupDoubles d;
         const SetupInts di;
-        const SetupBytes db;
         const SampleBox &box = grid_.sample_box(), &support = grid_.support(), &reach = grid_.reach();
+        for (size_t t = 0; t < cluster_->triangle_count; ++t) {
+            for (size_t i = 0; i < 3; ++i) copy_pair(snapped_, corner(t, i), of_corner_.snapped[i], t);
+        }
         uint64_t flat = 0, clockwise = 0, beside = 0, between_support = 0, between_samples = 0;
         for (size_t t = 0; t < cluster_->triangle_count; t += hn::Lanes(d)) {
             Int x[3], y[3];
-            for (size_t i = 0; i < 3; ++i) {
-                const Int index = hn::PromoteTo(di, hn::LoadU(db, mesh_->corner[i].data() + cluster_->first_triangle + t));
-                x[i] = hn::GatherIndex(di, snapped_x_, index);
-                y[i] = hn::GatherIndex(di, snapped_y_, index);
-            }
+            for (size_t i = 0; i < 3; ++i) hn::LoadInterleaved2(di, of_corner_.snapped[i] + 2 * t, x[i], y[i]);
             const auto delta = [&](const Int(&v)[3], size_t i) HWY_ATTR { return hn::PromoteTo(d, hn::Sub(v[i], v[0])); };
             const Double area = hn::Sub(hn::Mul(delta(x, 1), delta(y, 2)), hn::Mul(delta(x, 2), delta(y, 1)));
             flat |= setup_bits(d, hn::Eq(area, hn::Zero(d))) << t;
@@ -222,41 +220,60 @@ class ClusterSetup {
         return whole;
     }
 
-    /// Lexicographic, of homogeneous pixels.
-    bool precedes(size_t p, size_t q) const { return std::tie(x_[p], y_[p], z_[p], w_[p]) < std::tie(x_[q], y_[q], z_[q], w_[q]); }
+    /// Entry `from` of an array of pairs to entry `to` of another one.
+    template <class T>
+    static HWY_INLINE void copy_pair(const T* source, size_t from, T* target, size_t to) {
+        std::memcpy(target + 2 * to, source + 2 * from, 2 * sizeof(T));
+    }
 
     void set_up(uint64_t triangles) {
         const SetupDoubles d;
-        alignas(64) uint8_t list[64 + 8];
+        uint8_t list[64];
         size_t count = 0;
-        for (uint64_t rest = triangles; rest != 0; rest &= rest - 1) list[count++] = uint8_t(std::countr_zero(rest));
-        for (size_t i = 0; i < count; i += hn::Lanes(d)) set_up_lanes_of(list + i, std::min(count - i, hn::Lanes(d)));
+        for (uint64_t rest = triangles; rest != 0; rest &= rest - 1, ++count) {
+            const size_t t = size_t(std::countr_zero(rest));
+            list[count] = uint8_t(t);
+            for (size_t i = 0; i < 3; ++i) {
+                const size_t v = corner(t, i);
+                copy_pair(snapped_, v, of_corner_.snapped[i], count);
+                copy_pair(xy_, v, of_corner_.xy[i], count);
+                copy_pair(depth_and_inverse_w_, v, of_corner_.depth_and_inverse_w[i], count);
+            }
+        }
+        if (batch_.entries.size() < entry_count_ + kClusterTriangles) batch_.entries.resize(2 * (entry_count_ + kClusterTriangles));
+        for (size_t i = 0; i < count; i += hn::Lanes(d)) set_up_lanes_at(list, i, std::min(count - i, hn::Lanes(d)));
+        staged_count_ = 0;
+        for (size_t i = 0; i < count; ++i) write(i, list[i]);
+        // Nobody reads them soon: past the caches.
+        const hn::CappedTag<uint8_t, 64> du;
+        const uint8_t* const from = reinterpret_cast<const uint8_t*>(staged_);
+        uint8_t* const to = reinterpret_cast<uint8_t*>(batch_.triangles + batch_.count);
+        for (size_t i = 0; i < staged_count_ * sizeof(SetupTriangle); i += hn::Lanes(du)) hn::Stream(hn::Load(du, from + i), du, to + i);
+        batch_.count += uint32_t(staged_count_);
+        batch_.counts.binned += staged_count_;
     }
 
-    HWY_INLINE void set_up_lanes_of(const uint8_t* list, size_t count) {
+    /// Triangles `at` and on of those gathered.
+    HWY_INLINE void set_up_lanes_at(const uint8_t* list, size_t at, size_t count) {
         const SetupDoubles d;
         const SetupFloats df;
         const SetupInts di;
-        using Wide = hn::Rebind<int64_t, SetupDoubles>;
-        const Wide dw;
-        for (size_t lane = 0; lane < hn::Lanes(d); ++lane) {
-            const size_t t = list[std::min(lane, count - 1)];
-            for (size_t i = 0; i < 3; ++i) corner_[i][lane] = narrow_corner_[i][lane] = corner(t, i);
+        Double raw_x[3], raw_y[3], raw_depth[3], raw_inverse[3];
+        for (size_t i = 0; i < 3; ++i) {
+            Int x, y;
+            hn::LoadInterleaved2(di, of_corner_.snapped[i] + 2 * at, x, y);
+            raw_x[i] = hn::PromoteTo(d, x);
+            raw_y[i] = hn::PromoteTo(d, y);
+            hn::LoadInterleaved2(d, of_corner_.depth_and_inverse_w[i] + 2 * at, raw_depth[i], raw_inverse[i]);
         }
-        const auto gather = [&](const double* from, size_t i) HWY_ATTR { return hn::GatherIndex(d, from, hn::Load(dw, corner_[i])); };
-        const auto gather_int = [&](const int32_t* from, size_t i) HWY_ATTR {
-            return hn::PromoteTo(d, hn::GatherIndex(di, from, hn::Load(di, narrow_corner_[i])));
-        };
-
-        // Positive winding, from the first corner in the order of precedes() on, so that triangles of the same three positions are alike.
-        find_first_corners();
-        const auto is_second = hn::MaskFromVec(hn::BitCast(d, hn::Load(dw, second_)));
-        const auto is_third = hn::MaskFromVec(hn::BitCast(d, hn::Load(dw, third_)));
-        const Double raw_x[3] = {gather_int(snapped_x_, 0), gather_int(snapped_x_, 1), gather_int(snapped_x_, 2)};
-        const Double raw_y[3] = {gather_int(snapped_y_, 0), gather_int(snapped_y_, 1), gather_int(snapped_y_, 2)};
+        find_first_corners(list, at, count);
+        const SetupWide dw;
+        const auto is_second = hn::MaskFromVec(hn::BitCast(d, hn::Load(dw, out_.second + at)));
+        const auto is_third = hn::MaskFromVec(hn::BitCast(d, hn::Load(dw, out_.third + at)));
         const Double raw_area = hn::Sub(hn::Mul(hn::Sub(raw_x[1], raw_x[0]), hn::Sub(raw_y[2], raw_y[0])),
                                         hn::Mul(hn::Sub(raw_x[2], raw_x[0]), hn::Sub(raw_y[1], raw_y[0])));
         const auto turned = hn::Lt(raw_area, hn::Zero(d));
+        // Positive winding, from the first corner on, so that triangles of the same three positions are alike.
         const auto arrange = [&](const Double(&v)[3], Double(&out)[3]) HWY_ATTR {
             out[0] = hn::IfThenElse(is_third, v[2], hn::IfThenElse(is_second, v[1], v[0]));
             const Double next = hn::IfThenElse(is_third, v[0], hn::IfThenElse(is_second, v[2], v[1]));
@@ -264,8 +281,6 @@ class ClusterSetup {
             out[1] = hn::IfThenElse(turned, last, next);
             out[2] = hn::IfThenElse(turned, next, last);
         };
-        const Double raw_depth[3] = {gather(depth_, 0), gather(depth_, 1), gather(depth_, 2)};
-        const Double raw_inverse[3] = {gather(inverse_w_, 0), gather(inverse_w_, 1), gather(inverse_w_, 2)};
         Double x[3], y[3], depth[3], inverse[3];
         arrange(raw_x, x);
         arrange(raw_y, y);
@@ -282,58 +297,61 @@ class ClusterSetup {
         const auto most = [&](const Double(&v)[3]) HWY_ATTR { return hn::Max(hn::Max(v[0], v[1]), v[2]); };
 
         for (size_t i = 0; i < 3; ++i) {
-            hn::Store(hn::DemoteTo(di, x[i]), di, out_.x[i]);
-            hn::Store(hn::DemoteTo(di, y[i]), di, out_.y[i]);
-            hn::Store(inverse[i], d, out_.inverse_w[i]);
+            hn::Store(hn::DemoteTo(di, x[i]), di, out_.x[i] + at);
+            hn::Store(hn::DemoteTo(di, y[i]), di, out_.y[i] + at);
+            hn::Store(inverse[i], d, out_.inverse_w[i] + at);
         }
-        hn::Store(depth[0], d, out_.depth_at_origin);
-        hn::Store(slope_x, d, out_.depth_dx);
-        hn::Store(slope_y, d, out_.depth_dy);
-        hn::Store(hn::DemoteTo(df, least(depth)), df, out_.depth_min);
-        hn::Store(hn::DemoteTo(df, most(depth)), df, out_.depth_max);
-        out_.turned = uint32_t(setup_bits(d, turned));
-        find_tiles(least(x), most(x), least(y), most(y));
-        for (size_t lane = 0; lane < count; ++lane) write(lane, list[lane]);
+        hn::Store(depth[0], d, out_.depth_at_origin + at);
+        hn::Store(slope_x, d, out_.depth_dx + at);
+        hn::Store(slope_y, d, out_.depth_dy + at);
+        hn::Store(hn::DemoteTo(df, least(depth)), df, out_.depth_min + at);
+        hn::Store(hn::DemoteTo(df, most(depth)), df, out_.depth_max + at);
+        hn::Store(hn::BitCast(dw, hn::VecFromMask(d, turned)), dw, out_.turned + at);
+        find_tiles(least(x), most(x), least(y), most(y), at);
     }
 
-    /// Which lanes' first corner in the order of precedes() is their second, and which their third.
-    HWY_INLINE void find_first_corners() {
+    bool precedes(size_t p, size_t q) const {
+        const ScreenVertex a = vertex(p), b = vertex(q);
+        return std::tie(a.x, a.y, a.z, a.w) < std::tie(b.x, b.y, b.z, b.w);
+    }
+
+    /// Which triangles' first corner, in the lexicographic order of homogeneous pixels, is their second one, and which their third.
+    HWY_INLINE void find_first_corners(const uint8_t* list, size_t at, size_t count) {
         const SetupDoubles d;
-        using Wide = hn::Rebind<int64_t, SetupDoubles>;
-        const Wide dw;
-        const auto gather = [&](const double* from, size_t i) HWY_ATTR { return hn::GatherIndex(d, from, hn::Load(dw, corner_[i])); };
-        const Double x0 = gather(x_, 0), x1 = gather(x_, 1), x2 = gather(x_, 2);
-        const Double y0 = gather(y_, 0), y1 = gather(y_, 1), y2 = gather(y_, 2);
-        const auto before = [&](Double px, Double py, Double qx, Double qy) HWY_ATTR {
-            return hn::Or(hn::Lt(px, qx), hn::And(hn::Eq(px, qx), hn::Lt(py, qy)));
-        };
+        const SetupWide dw;
+        Double x0, x1, x2, y0, y1, y2;
+        hn::LoadInterleaved2(d, of_corner_.xy[0] + 2 * at, x0, y0);
+        hn::LoadInterleaved2(d, of_corner_.xy[1] + 2 * at, x1, y1);
+        hn::LoadInterleaved2(d, of_corner_.xy[2] + 2 * at, x2, y2);
+        const auto before = [&](Double px, Double py, Double qx, Double qy)
+                                HWY_ATTR { return hn::Or(hn::Lt(px, qx), hn::And(hn::Eq(px, qx), hn::Lt(py, qy))); };
         const auto ties = hn::Or(hn::Or(hn::And(hn::Eq(x0, x1), hn::Eq(y0, y1)), hn::And(hn::Eq(x0, x2), hn::Eq(y0, y2))),
                                  hn::And(hn::Eq(x1, x2), hn::Eq(y1, y2)));
         const auto b10 = before(x1, y1, x0, y0), b20 = before(x2, y2, x0, y0), b21 = before(x2, y2, x1, y1);
         const auto third = hn::Or(hn::And(b10, b21), hn::AndNot(b10, b20)), second = hn::AndNot(b21, b10);
-        hn::Store(hn::BitCast(dw, hn::VecFromMask(d, second)), dw, second_);
-        hn::Store(hn::BitCast(dw, hn::VecFromMask(d, third)), dw, third_);
-        for (uint64_t rest = setup_bits(d, ties); rest != 0; rest &= rest - 1) {
-            const size_t lane = size_t(std::countr_zero(rest));
+        hn::Store(hn::BitCast(dw, hn::VecFromMask(d, second)), dw, out_.second + at);
+        hn::Store(hn::BitCast(dw, hn::VecFromMask(d, third)), dw, out_.third + at);
+        for (uint64_t rest = setup_bits(d, ties) & ((1u << count) - 1); rest != 0; rest &= rest - 1) {
+            const size_t lane = size_t(std::countr_zero(rest)), t = list[at + lane];
             size_t best = 0;
             for (size_t i = 1; i < 3; ++i) {
-                if (precedes(size_t(corner_[i][lane]), size_t(corner_[best][lane]))) best = i;
+                if (precedes(corner(t, i), corner(t, best))) best = i;
             }
-            second_[lane] = best == 1 ? -1 : 0;
-            third_[lane] = best == 2 ? -1 : 0;
+            out_.second[at + lane] = best == 1 ? -1 : 0;
+            out_.third[at + lane] = best == 2 ? -1 : 0;
         }
     }
 
     /// The tiles about the boxes, as TileGrid::tiles_over has it.
-    HWY_INLINE void find_tiles(Double x_min, Double x_max, Double y_min, Double y_max) {
+    HWY_INLINE void find_tiles(Double x_min, Double x_max, Double y_min, Double y_max, size_t at) {
         const SetupDoubles d;
         const SetupInts di;
         const SampleBox& reach = grid_.reach();
         const Double to_pixels = hn::Set(d, 1.0 / kSampleOne), two = hn::Set(d, 2.0), half = hn::Set(d, 0.5);
         const Double per_tile = hn::Set(d, inverse_tile_size_);
         const auto set = [&](int64_t v) HWY_ATTR { return hn::Set(d, double(v)); };
-        const auto range = [&](Double low, Double high, int64_t first_offset, int64_t last_offset, int first_tile, int last_tile, int extent,
-                               int32_t* first, int32_t* last) HWY_ATTR {
+        const auto range = [&](Double low, Double high, int64_t first_offset, int64_t last_offset, int first_tile, int last_tile,
+                               int extent, int32_t* first, int32_t* last) HWY_ATTR {
             const Double first_pixel = hn::Ceil(hn::Mul(hn::Sub(hn::Mul(low, two), set(last_offset)), to_pixels));
             const Double last_pixel =
                 hn::Min(hn::Floor(hn::Mul(hn::Sub(hn::Mul(high, two), set(first_offset)), to_pixels)), set(extent - 1));
@@ -345,62 +363,61 @@ class ClusterSetup {
             hn::Store(hn::DemoteTo(di, begin), di, first);
             hn::Store(hn::DemoteTo(di, end), di, last);
         };
-        range(x_min, x_max, reach.x_min, reach.x_max, grid_.first_x(), grid_.last_x(), grid_.width(), out_.first_column, out_.last_column);
-        range(y_min, y_max, reach.y_min, reach.y_max, grid_.first_y(), grid_.last_y(), grid_.height(), out_.first_row, out_.last_row);
+        range(x_min, x_max, reach.x_min, reach.x_max, grid_.first_x(), grid_.last_x(), grid_.width(), out_.first_column + at,
+              out_.last_column + at);
+        range(y_min, y_max, reach.y_min, reach.y_max, grid_.first_y(), grid_.last_y(), grid_.height(), out_.first_row + at,
+              out_.last_row + at);
     }
 
-    HWY_INLINE void write(size_t lane, size_t t) {
-        if ((late_ >> t & 1u) != 0) {
-            ++batch_.counts.culled_backface;
+    /// The triangle set up as number i, the cluster's triangle t.
+    HWY_INLINE void write(size_t i, size_t t) {
+        const int columns = out_.last_column[i] - out_.first_column[i], rows = out_.last_row[i] - out_.first_row[i];
+        if ((late_ >> t & 1u) != 0 || (columns | rows) < 0) {
+            ++((late_ >> t & 1u) != 0 ? batch_.counts.culled_backface : batch_.counts.culled_frustum);
             return;
         }
-        const bool empty = out_.first_column[lane] > out_.last_column[lane] || out_.first_row[lane] > out_.last_row[lane];
-        if (empty) {
-            ++batch_.counts.culled_frustum;
-            return;
+        SetupTriangle& to = staged_[staged_count_];
+        const uint32_t index = batch_.count + uint32_t(staged_count_);
+        for (size_t k = 0; k < 3; ++k) {
+            to.x[k] = out_.x[k][i];
+            to.y[k] = out_.y[k][i];
+            to.inverse_w[k] = out_.inverse_w[k][i];
         }
-        SetupTriangle& to = batch_.triangles[batch_.count];
-        for (size_t i = 0; i < 3; ++i) {
-            to.x[i] = out_.x[i][lane];
-            to.y[i] = out_.y[i][lane];
-            to.inverse_w[i] = out_.inverse_w[i][lane];
-        }
-        to.depth_at_origin = out_.depth_at_origin[lane];
-        to.depth_dx = out_.depth_dx[lane];
-        to.depth_dy = out_.depth_dy[lane];
-        to.depth_min = out_.depth_min[lane];
-        to.depth_max = out_.depth_max[lane];
+        to.depth_at_origin = out_.depth_at_origin[i];
+        to.depth_dx = out_.depth_dx[i];
+        to.depth_dy = out_.depth_dy[i];
+        to.depth_min = out_.depth_min[i];
+        to.depth_max = out_.depth_max[i];
         to.primitive = mesh_->primitive[cluster_->first_triangle + t];
         to.triangle_id = draw_->first_triangle_id + to.primitive;
         to.draw = draw_index_;
         to.coverage = draw_->coverage;
         to.front_facing = (back_ >> t & 1u) == 0;
         to.bary_over_w = nullptr;
-        const uint8_t first = second_[lane] != 0 ? 1 : third_[lane] != 0 ? 2 : 0;
-        const bool turned = (out_.turned >> lane & 1u) != 0;
-        constexpr uint8_t kNext[3] = {1, 2, 0}, kLast[3] = {2, 0, 1};
-        to.corner[0] = first;
-        to.corner[1] = turned ? kLast[first] : kNext[first];
-        to.corner[2] = turned ? kNext[first] : kLast[first];
+        // By first corner and winding.
+        constexpr uint8_t kCorners[2][3][3] = {{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}}, {{0, 2, 1}, {1, 0, 2}, {2, 1, 0}}};
+        const size_t first = size_t((out_.second[i] & 1) + (out_.third[i] & 2));
+        std::memcpy(to.corner, kCorners[out_.turned[i] & 1][first], 3);
 
-        if (out_.first_column[lane] == out_.last_column[lane] && out_.first_row[lane] == out_.last_row[lane]) {
-            batch_.entries.push_back(
-                {uint32_t(out_.first_row[lane]) * uint32_t(grid_.tiles_x()) + uint32_t(out_.first_column[lane]), batch_.count});
-        } else if (!enter_tiles(to, batch_.count)) {
+        if ((columns | rows) == 0) {
+            const uint32_t tile = uint32_t(out_.first_row[i]) * uint32_t(grid_.tiles_x()) + uint32_t(out_.first_column[i]);
+            batch_.entries[entry_count_++] = {tile, index};
+        } else if (!enter_tiles(to, index)) {
             ++batch_.counts.culled_frustum;
             return;
         }
-        ++batch_.counts.binned;
-        ++batch_.count;
+        ++staged_count_;
     }
 
+    /// Leaves room for the entries of as many triangles as one cluster has.
     bool enter_tiles(const SetupTriangle& triangle, uint32_t index) {
-        const size_t before = batch_.entries.size();
+        const size_t before = entry_count_;
         grid_.for_each_touched(triangle, [&](size_t tile) {
-            batch_.entries.push_back({uint32_t(tile), index});
+            if (entry_count_ + kClusterTriangles >= batch_.entries.size()) batch_.entries.resize(2 * (entry_count_ + kClusterTriangles));
+            batch_.entries[entry_count_++] = {uint32_t(tile), index};
             return true;
         });
-        return batch_.entries.size() > before;
+        return entry_count_ > before;
     }
 
     void append_pieces(uint32_t capacity) {
@@ -428,37 +445,39 @@ class ClusterSetup {
     uint32_t draw_index_ = 0;
     const MeshClusters* mesh_ = nullptr;
     const Cluster* cluster_ = nullptr;
-    alignas(64) double x_[kVertices] = {};
-    alignas(64) double y_[kVertices] = {};
-    alignas(64) double z_[kVertices] = {};
-    alignas(64) double w_[kVertices] = {};
-    alignas(64) double depth_[kVertices] = {};
-    alignas(64) double inverse_w_[kVertices] = {};
-    alignas(64) int32_t snapped_x_[kVertices] = {};
-    alignas(64) int32_t snapped_y_[kVertices] = {};
+    // By vertex, in pairs.
+    alignas(64) double xy_[2 * kVertices] = {};
+    alignas(64) double zw_[2 * kVertices] = {};
+    alignas(64) double depth_and_inverse_w_[2 * kVertices] = {};
+    alignas(64) int32_t snapped_[2 * kVertices] = {};
     uint8_t codes_[kVertices] = {};
-    uint64_t back_ = 0, late_ = 0;  // by triangle; late: to be dropped when they are set up
-
-    // Of the triangles set up together, by lane.
-    alignas(64) int64_t corner_[3][8] = {};
-    alignas(64) int32_t narrow_corner_[3][16] = {};
-    alignas(64) int64_t second_[8] = {};
-    alignas(64) int64_t third_[8] = {};
+    // By triangle, of each corner; gathered pair by pair, which takes less than gathering in vectors.
+    struct OfCorner {
+        alignas(64) double xy[3][2 * kRoom];
+        alignas(64) double depth_and_inverse_w[3][2 * kRoom];
+        alignas(64) int32_t snapped[3][2 * kRoom];
+    } of_corner_{};
+    uint64_t back_ = 0, late_ = 0;  // late: to be dropped when they are set up
     struct Lanes {
-        alignas(64) double inverse_w[3][8];
-        alignas(64) double depth_at_origin[8];
-        alignas(64) double depth_dx[8];
-        alignas(64) double depth_dy[8];
-        alignas(64) float depth_min[16];
-        alignas(64) float depth_max[16];
-        alignas(64) int32_t x[3][16];
-        alignas(64) int32_t y[3][16];
-        alignas(64) int32_t first_column[16];
-        alignas(64) int32_t last_column[16];
-        alignas(64) int32_t first_row[16];
-        alignas(64) int32_t last_row[16];
-        uint32_t turned;
+        alignas(64) double inverse_w[3][kRoom];
+        alignas(64) double depth_at_origin[kRoom];
+        alignas(64) double depth_dx[kRoom];
+        alignas(64) double depth_dy[kRoom];
+        alignas(64) int64_t second[kRoom];
+        alignas(64) int64_t third[kRoom];
+        alignas(64) int64_t turned[kRoom];
+        alignas(64) float depth_min[kRoom];
+        alignas(64) float depth_max[kRoom];
+        alignas(64) int32_t x[3][kRoom];
+        alignas(64) int32_t y[3][kRoom];
+        alignas(64) int32_t first_column[kRoom];
+        alignas(64) int32_t last_column[kRoom];
+        alignas(64) int32_t first_row[kRoom];
+        alignas(64) int32_t last_row[kRoom];
     } out_{};
+    size_t entry_count_ = 0;
+    SetupTriangle staged_[kClusterTriangles];
+    size_t staged_count_ = 0;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -3,6 +3,7 @@
 
 #include "raster/frame.h"
 #include "raster/frame_memory.h"
+#include "raster/occlusion.h"
 #include "raster/tile_grid.h"
 
 #include <array>
@@ -15,8 +16,9 @@ namespace rawtexel::raster {
 /// A cluster that no test has left out.
 struct VisibleCluster {
     uint32_t draw, cluster;
-    float nearest;   ///< no depth of it is greater
-    bool unclipped;  ///< ClusterView::unclipped
+    float nearest;    ///< no depth of it is greater
+    bool unclipped;   ///< ClusterView::unclipped
+    CellRange cells;  ///< that it may be seen in; of those that are not clipped
 };
 
 inline constexpr uint32_t kBatchClusters = 32;  ///< 2048 triangles: enough to outweigh starting a task, and half of a block

@@ -3,10 +3,12 @@
 #include "raster/cluster_cull.h"
 #include "raster/cluster_setup.h"
 #include "raster/frame_memory.h"
+#include "raster/occlusion.h"
 #include "raster/tile_grid.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cassert>
 #include <map>
@@ -20,9 +22,14 @@ namespace rawtexel::raster {
 
 namespace {
 
-constexpr uint64_t kMaxBinRanges = 64;      ///< bounds the bins' counters, one per range and tile
-constexpr uint32_t kSeenClusters = 1024;    ///< looked at by one task
+constexpr uint64_t kMaxBinRanges = 64;    ///< bounds the bins' counters, one per range and tile
+constexpr uint32_t kSeenClusters = 1024;  ///< looked at by one task
+constexpr size_t kFewestHideable = 128;   ///< clusters in view that make looking for occluders pay
+constexpr size_t kMostOccluders = 256;
+constexpr int kFewestCells = 16;            ///< of an occluder
 constexpr uint64_t kMostBlocks = 1u << 20;  ///< that setup indices can name, but for the last
+
+std::atomic<uint64_t> last_serial{0};
 
 uint64_t divide_up(uint64_t a, uint64_t b) { return (a + b - 1) / b; }
 
@@ -33,7 +40,7 @@ class MissingClusters {
         for (Draw& draw : draws) {
             if (draw.clusters != nullptr) continue;
             MeshClusters& mesh = made_[{draw.positions, draw.vertex_count, draw.indices, draw.triangle_count}];
-            if (mesh.corner[0].empty())
+            if (mesh.clusters.empty())
                 mesh = make_clusters({draw.positions, draw.vertex_count}, {draw.indices, 3 * size_t{draw.triangle_count}});
             draw.clusters = &mesh;
         }
@@ -75,8 +82,8 @@ struct SeenClusters {
     FrameCounts counts;  ///< of the others
 };
 
-SeenClusters see_clusters(std::span<const Draw> draws, const FrameOptions& options, const TileGrid& grid, const ClusterRun& run,
-                          const ParallelFor& parallel_for) {
+SeenClusters see_clusters(std::span<const Draw> draws, const FrameOptions& options, const TileGrid& grid, const OcclusionBuffer& occlusion,
+                          const ClusterRun& run, const ParallelFor& parallel_for) {
     std::vector<SeenClusters> parts(divide_up(run.size(), kSeenClusters));
     const RasterSkips& skips = options.skips;
     parallel_for(int64_t(parts.size()), [&](int64_t part) {
@@ -93,7 +100,8 @@ SeenClusters see_clusters(std::span<const Draw> draws, const FrameOptions& optio
             if (view.outside && skips.frustum) fate = &FrameCounts::culled_frustum;
             if (view.facing_away && draw.cull == CullMode::Back && skips.backface) fate = &FrameCounts::culled_backface;
             if (fate == nullptr) {
-                seen.list.push_back({draw_index, number, view.nearest, view.unclipped});
+                const CellRange cells = view.unclipped ? occlusion.cells_of(view.box) : CellRange{};
+                seen.list.push_back({draw_index, number, view.nearest, view.unclipped, cells});
             } else {
                 seen.counts.triangles += cluster.triangle_count;
                 seen.counts.*fate += cluster.triangle_count;
@@ -106,6 +114,39 @@ SeenClusters see_clusters(std::span<const Draw> draws, const FrameOptions& optio
         all.counts += part.counts;
     }
     return all;
+}
+
+/// Leaves out what the largest opaque clusters hide. Nothing that is seen anywhere is: it would have to be strictly behind itself.
+void leave_out_occluded(std::span<const Draw> draws, OcclusionBuffer& occlusion, SeenClusters& seen, const ParallelFor& parallel_for) {
+    if (seen.list.size() < kFewestHideable) return;
+    std::vector<Occluder> occluders;
+    for (const VisibleCluster& c : seen.list) {
+        if (c.unclipped && c.cells.count() >= kFewestCells && draws[c.draw].coverage == CoverageClass::Opaque)
+            occluders.push_back({c.draw, c.cluster, c.cells});
+    }
+    if (occluders.empty()) return;
+    std::stable_sort(occluders.begin(), occluders.end(),
+                     [](const Occluder& a, const Occluder& b) { return a.cells.count() > b.cells.count(); });
+    occluders.resize(std::min(occluders.size(), kMostOccluders));
+    occlusion.draw(draws, occluders);
+
+    std::vector<uint8_t> hidden(seen.list.size());
+    parallel_for(int64_t(divide_up(hidden.size(), kSeenClusters)), [&](int64_t part) {
+        const size_t begin = size_t(part) * kSeenClusters, end = std::min(begin + kSeenClusters, hidden.size());
+        for (size_t i = begin; i < end; ++i) hidden[i] = occlusion.hides(seen.list[i].cells, seen.list[i].nearest);
+    });
+    size_t kept = 0;
+    for (size_t i = 0; i < hidden.size(); ++i) {
+        const VisibleCluster& c = seen.list[i];
+        if (hidden[i] == 0) {
+            seen.list[kept++] = c;
+            continue;
+        }
+        const uint8_t triangles = draws[c.draw].clusters->clusters[c.cluster].triangle_count;
+        seen.counts.triangles += triangles;
+        seen.counts.culled_occluded += triangles;
+    }
+    seen.list.resize(kept);
 }
 
 /// The nearest first; those as near as one another, but for the last bits, in the order that they had.
@@ -139,6 +180,7 @@ FrameCounts& FrameCounts::operator+=(const FrameCounts& other) {
     culled_degenerate += other.culled_degenerate;
     culled_small += other.culled_small;
     culled_unsampled += other.culled_unsampled;
+    culled_occluded += other.culled_occluded;
     culled_nonfinite += other.culled_nonfinite;
     binned += other.binned;
     clipped += other.clipped;
@@ -153,7 +195,7 @@ Frame::Frame(Frame&&) noexcept = default;
 Frame& Frame::operator=(Frame&&) noexcept = default;
 
 Frame::Frame(const FrameOptions& options, std::span<const Draw> given_draws, const ParallelFor& parallel_for)
-    : options_(options), memory_(std::make_unique<FrameMemory>()) {
+    : options_(options), serial_(++last_serial), memory_(std::make_unique<FrameMemory>()) {
     std::vector<Draw> draws(given_draws.begin(), given_draws.end());
     MissingClusters missing;
     missing.complete(draws);
@@ -162,7 +204,10 @@ Frame::Frame(const FrameOptions& options, std::span<const Draw> given_draws, con
     tiles_y_ = grid.tiles_y();
     counts_.tiles = uint64_t(grid.active_tiles());
 
-    SeenClusters seen = see_clusters(draws, options_, grid, ClusterRun(draws), parallel_for);
+    OcclusionBuffer occlusion(options_, grid);
+    SeenClusters seen = see_clusters(draws, options_, grid, occlusion, ClusterRun(draws), parallel_for);
+    if (options_.skips.clusters && options_.skips.occlusion && !options_.scene_order)
+        leave_out_occluded(draws, occlusion, seen, parallel_for);
     counts_ += seen.counts;
     const auto opaque = [&](const VisibleCluster& c) { return draws[c.draw].coverage == CoverageClass::Opaque; };
     const auto layered = std::partition_point(seen.list.begin(), seen.list.end(), opaque);

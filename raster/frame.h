@@ -45,10 +45,11 @@ struct Draw {
 
 /// Work that is left out where it cannot change what is seen; each can be turned off.
 struct RasterSkips {
-    bool clusters = true;  ///< tests of whole clusters, before their vertices are transformed
-    bool frustum = true;   ///< of clusters and of triangles that lie outside of the view
-    bool backface = true;  ///< of clusters and of triangles that face away, before they are set up
-    bool hiz = true;       ///< of what lies behind all of an 8x8 block
+    bool clusters = true;   ///< tests of whole clusters, before their vertices are transformed
+    bool frustum = true;    ///< of clusters and of triangles that lie outside of the view
+    bool backface = true;   ///< of clusters and of triangles that face away, before they are set up
+    bool occlusion = true;  ///< of clusters behind what large opaque clusters cover
+    bool hiz = true;        ///< of what lies behind all of an 8x8 block
 };
 
 struct FrameOptions {
@@ -59,13 +60,13 @@ struct FrameOptions {
     /// Farthest a sample point lies from its pixel's centre along one axis, pixels. Conservative tests are widened by it.
     float filter_radius = 0.0f;
     /// The offsets that the frame's samples have; nullopt: all within filter_radius.
-    std::optional<OffsetRange> reach;
+    std::optional<OffsetRange> reach = std::nullopt;
     /// Opaque triangles are drawn in scene order, as whoever counts overdraw wants them, and not the nearest clusters first.
     bool scene_order = false;
-    RasterSkips skips;
+    RasterSkips skips = {};
 };
 
-/// Every triangle has exactly one fate: it is binned, or culled for one of six reasons.
+/// Every triangle has exactly one fate: it is binned, or culled for one of seven reasons.
 struct FrameCounts {
     uint64_t triangles = 0;
     uint64_t culled_frustum = 0;  ///< outside the view volume, or reaching no sample point of a tile that touches the crop
@@ -73,6 +74,7 @@ struct FrameCounts {
     uint64_t culled_degenerate = 0;       ///< no area once snapped
     uint64_t culled_small = 0;            ///< between the points that the pixel filter may sample
     uint64_t culled_unsampled = 0;        ///< between the points that this frame samples
+    uint64_t culled_occluded = 0;         ///< in clusters behind what large opaque clusters cover
     uint64_t culled_nonfinite = 0;        ///< a vertex was NaN or infinite after the transform
     uint64_t binned = 0;                  ///< reached a bin, whole or in pieces
     uint64_t clipped = 0;                 ///< triangles that a plane cut and that something was left of; not a fate
@@ -127,9 +129,12 @@ class Frame {
 
     const FrameOptions& options() const { return options_; }
     const FrameCounts& counts() const { return counts_; }
+    uint64_t serial() const { return serial_; }  ///< not 0, and no other frame's of this process
     int tiles_x() const { return tiles_x_; }
     int tiles_y() const { return tiles_y_; }
-    const SetupTriangle& triangle(uint32_t setup_index) const { return blocks_[setup_index / kBlockTriangles][setup_index % kBlockTriangles]; }
+    const SetupTriangle& triangle(uint32_t setup_index) const {
+        return blocks_[setup_index / kBlockTriangles][setup_index % kBlockTriangles];
+    }
     uint32_t triangle_count() const { return triangle_count_; }
     /// Calls visit(setup index, triangle) in the order of setup indices, which have gaps.
     template <class Visit>
@@ -151,6 +156,7 @@ class Frame {
     void sort_bins(const ParallelFor& parallel_for);
 
     FrameOptions options_;
+    uint64_t serial_;
     FrameCounts counts_;
     int tiles_x_ = 0, tiles_y_ = 0;
     uint32_t triangle_count_ = 0;

@@ -61,7 +61,6 @@ class Builder {
             add_cluster({order.data() + begin, end - begin});
             begin = end;
         }
-        for (std::vector<uint8_t>& corner : out_.corner) corner.resize(count + kCornerPadding);
         return std::move(out_);
     }
 
@@ -110,7 +109,7 @@ class Builder {
 
     void reserve(uint32_t count) {
         out_.primitive.reserve(count);
-        for (std::vector<uint8_t>& corner : out_.corner) corner.reserve(count + kCornerPadding);
+        for (std::vector<uint8_t>& corner : out_.corner) corner.reserve(count);
         out_.clusters.reserve(count / kClusterTriangles + 8);
     }
 

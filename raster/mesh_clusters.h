@@ -27,14 +27,11 @@ struct Cluster {
 inline constexpr uint32_t kClusterTriangles = 64;
 inline constexpr uint32_t kVertexAlignment = 16;  ///< vertices of a cluster take a multiple of this, the last one repeated
 
-inline constexpr size_t kCornerPadding = 8;
-
 /// A triangle list cut into clusters: neighbours in space that face the same way, whatever the order of the list.
 struct MeshClusters {
     std::vector<Cluster> clusters;
     std::vector<uint32_t> primitive;  ///< by triangle of the clusters: which triangle of the list it is
-    /// Likewise: its vertices, counted from its cluster's first; and kCornerPadding zeros, so that vectors may read past the end.
-    std::vector<uint8_t> corner[3];
+    std::vector<uint8_t> corner[3];   ///< likewise: its vertices, counted from its cluster's first
     std::vector<float> x, y, z;       ///< of the clusters' vertices
 };
 

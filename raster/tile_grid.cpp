@@ -22,7 +22,7 @@ bool meets_samples(int64_t low, int64_t high, int64_t first_offset, int64_t last
 TileGrid::TileGrid(const FrameOptions& options) : tile_size_(options.tile_size), width_(options.width), height_(options.height) {
     assert(width_ >= 1 && width_ <= kMaxFrameExtent && height_ >= 1 && height_ <= kMaxFrameExtent);
     assert(tile_size_ > 0 && tile_size_ % kBlockWidth == 0);
-    assert(options.filter_radius >= 0.0f && options.filter_radius <= 16.0f);
+    assert(options.filter_radius >= 0.0f && options.filter_radius <= float(kMostFilterRadius));
     const int64_t radius = int64_t(std::ceil(double(options.filter_radius) * kSampleOne));
     support_ = {kCentre - radius, kCentre + radius, kCentre - radius, kCentre + radius};
     reach_ = support_;

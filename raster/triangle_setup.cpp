@@ -12,11 +12,6 @@ int64_t doubled_area(const SnappedPosition& p, const SnappedPosition& q, const S
     return (int64_t{q.x} - p.x) * (int64_t{r.y} - p.y) - (int64_t{r.x} - p.x) * (int64_t{q.y} - p.y);
 }
 
-double depth_of(const ScreenVertex& v) {
-    // Adding zero turns -0 into 0.
-    return std::clamp(v.z / v.w, 0.0, 1.0) + 0.0;
-}
-
 bool disjoint(const SampleBox& a, const SampleBox& b) {
     return a.x_max < b.x_min || b.x_max < a.x_min || a.y_max < b.y_min || b.y_max < a.y_min;
 }
@@ -118,7 +113,7 @@ ClippedSetup::Fate ClippedSetup::add_polygon(std::span<const ScreenVertex> polyg
 }
 
 void ClippedSetup::add_pieces(std::span<const ScreenVertex> polygon, const SnappedPolygon& snapped, const HomogeneousPlanes& planes,
-                               const SetupTriangle& common) {
+                              const SetupTriangle& common) {
     const bool positive = snapped.doubled_area > 0;
     for (size_t i = 1; i + 1 < snapped.size; ++i) {
         const int64_t area = doubled_area(snapped.position[0], snapped.position[i], snapped.position[i + 1]);

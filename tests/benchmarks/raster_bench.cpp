@@ -110,7 +110,8 @@ BenchScene spheres_scene() {
     const glm::mat4 clip = {focal * kHeight / kWidth, 0, 0, 0, 0, focal, 0, 0, 0, 0, 0, -1, 0, 0, near_plane, 0};
     for (int z = 0; z < 10; ++z)
         for (int x = 0; x < 10; ++x)
-            scene.add_draw(scene.meshes[0], clip * view * glm::translate(glm::mat4(1.0f), glm::vec3(float(x) - 4.5f, 0.0f, float(z) - 4.5f)));
+            scene.add_draw(scene.meshes[0],
+                           clip * view * glm::translate(glm::mat4(1.0f), glm::vec3(float(x) - 4.5f, 0.0f, float(z) - 4.5f)));
     return scene;
 }
 

@@ -26,7 +26,8 @@ FrameOptions frame_options(int width, int height, float filter_radius = 0.5f) {
 }
 
 uint64_t fates(const FrameCounts& c) {
-    return c.culled_frustum + c.culled_backface + c.culled_degenerate + c.culled_small + c.culled_unsampled + c.culled_nonfinite + c.binned;
+    return c.culled_frustum + c.culled_backface + c.culled_degenerate + c.culled_small + c.culled_unsampled + c.culled_occluded +
+           c.culled_nonfinite + c.binned;
 }
 
 /// One triangle of pixel coordinates in a 64x64 frame.
