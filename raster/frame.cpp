@@ -26,6 +26,7 @@ constexpr uint64_t kMaxBinRanges = 64;    ///< bounds the bins' counters, one pe
 constexpr uint32_t kSeenClusters = 1024;  ///< looked at by one task
 constexpr size_t kFewestHideable = 128;   ///< clusters in view that make looking for occluders pay
 constexpr size_t kMostOccluders = 256;
+constexpr int kLeastShare = 8;              ///< an occluder has at least this part of the largest one's cells
 constexpr int kFewestCells = 16;            ///< of an occluder
 constexpr uint64_t kMostBlocks = 1u << 20;  ///< that setup indices can name, but for the last
 
@@ -125,9 +126,15 @@ void leave_out_occluded(std::span<const Draw> draws, OcclusionBuffer& occlusion,
             occluders.push_back({c.draw, c.cluster, c.cells});
     }
     if (occluders.empty()) return;
-    std::stable_sort(occluders.begin(), occluders.end(),
-                     [](const Occluder& a, const Occluder& b) { return a.cells.count() > b.cells.count(); });
-    occluders.resize(std::min(occluders.size(), kMostOccluders));
+    const auto larger = [](const Occluder& a, const Occluder& b) {
+        return std::tuple(-a.cells.count(), a.draw, a.cluster) < std::tuple(-b.cells.count(), b.draw, b.cluster);
+    };
+    const int enough = std::min_element(occluders.begin(), occluders.end(), larger)->cells.count() / kLeastShare;
+    std::erase_if(occluders, [&](const Occluder& o) { return o.cells.count() < enough; });
+    if (occluders.size() > kMostOccluders) {
+        std::nth_element(occluders.begin(), occluders.begin() + kMostOccluders, occluders.end(), larger);
+        occluders.resize(kMostOccluders);
+    }
     occlusion.draw(draws, occluders);
 
     std::vector<uint8_t> hidden(seen.list.size());

@@ -16,11 +16,12 @@ constexpr uint32_t kFewestOfAFacing = 8;  // a cluster ends where the facing cha
 
 bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// The bits of `value` three apart.
+/// The lowest ten bits of `value` three apart.
 uint32_t spread_bits(uint32_t value) {
-    uint32_t spread = 0;
-    for (int bit = 0; bit < kCellBits; ++bit) spread |= (value >> bit & 1u) << (3 * bit);
-    return spread;
+    value = (value | value << 16) & 0x030000FFu;
+    value = (value | value << 8) & 0x0300F00Fu;
+    value = (value | value << 4) & 0x030C30C3u;
+    return (value | value << 2) & 0x09249249u;
 }
 
 struct Corners {
