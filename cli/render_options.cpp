@@ -135,6 +135,7 @@ void declare_machine_options(CommandLine& line, MachineOptions& machine) {
                     using texunit::Simd;
                     machine.simd = parse_choice("--simd", text, {Simd::Auto, Simd::Scalar, Simd::Sse4, Simd::Avx2, Simd::Avx3});
                 });
+    declare_skip_options(line, machine.skips);
     line.option("--progress", "auto|always|never",
                 "a bar on a terminal, percent lines elsewhere; auto shows it only when it takes a while (default auto)",
                 [&](const std::string& text) {

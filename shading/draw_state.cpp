@@ -80,6 +80,7 @@ std::vector<raster::Draw> make_raster_draws(const DrawStates& states, const glm:
             .vertex_count = uint32_t(state.mesh->positions.size()),
             .indices = state.mesh->indices.data(),
             .triangle_count = uint32_t(state.mesh->indices.size() / 3),
+            .clusters = state.mesh->clusters.get(),
             .clip_from_object = clip_from_world * state.world_from_object,
             .first_triangle_id = state.first_triangle_id,
             .coverage = coverage_class(material.alpha_mode),

@@ -114,6 +114,11 @@ class TileRenderer {
     }
 
     void find_visible(uint32_t sample) {
+        if (inputs_.skip_empty_tiles && frame_.bin(tile_x_, tile_y_).empty()) {
+            if (sample == inputs_.first_sample) scratch_.visibility.reset(tile_size_);
+            scratch_.candidates.clear();
+            return;
+        }
         const bool per_pixel = inputs_.pixel_jitter == PixelJitter::Pixel;
         const raster::TileSamples samples{frame_offset_, per_pixel ? scratch_.offsets.data() : nullptr};
         coverage_.begin_sample(sample);
