@@ -87,6 +87,35 @@ class PlanesByLane {
 /// Sample points of a block in pixels, exact. At most 8 lanes, so a vector never leaves its row.
 using SampleLanes = hn::CappedTag<double, 8>;
 
+/// The points of a block's lanes. Every term is a multiple of 2^-9, so that nothing rounds.
+HWY_INLINE void sample_points(const SampleOffset* offset, int x, int y, double* px, double* py) {
+    const SampleLanes d;
+    const hn::Rebind<int32_t, SampleLanes> di;
+    static_assert(sizeof(SampleOffset) == 2 * sizeof(int32_t) && kBlockWidth == 8);
+    const auto scale = hn::Set(d, 1.0 / kSampleOne);
+    for (size_t lane = 0; lane < 32; lane += hn::Lanes(d)) {
+        hn::Vec<decltype(di)> of_x, of_y;
+        hn::LoadInterleaved2(di, &offset[lane].x, of_x, of_y);
+        const auto column = hn::Iota(d, double(x + int(lane % kBlockWidth)));
+        hn::Store(hn::Add(column, hn::Mul(hn::PromoteTo(d, of_x), scale)), d, px + lane);
+        hn::Store(hn::Add(hn::Set(d, double(y + int(lane / kBlockWidth))), hn::Mul(hn::PromoteTo(d, of_y), scale)), d, py + lane);
+    }
+}
+
+/// Lanes whose triangle is `index`.
+HWY_INLINE uint32_t lanes_of_triangle(const uint32_t* setup_index, uint32_t index) {
+    const hn::CappedTag<uint32_t, 32> d;
+    uint32_t lanes = 0;
+    for (size_t lane = 0; lane < 32; lane += hn::Lanes(d)) {
+        alignas(8) uint8_t bits[8] = {};
+        hn::StoreMaskBits(d, hn::Eq(hn::LoadU(d, setup_index + lane), hn::Set(d, index)), bits);
+        uint32_t some;
+        hwy::CopyBytes<4>(bits, &some);
+        lanes |= (hn::Lanes(d) >= 32 ? some : some & ((1u << hn::Lanes(d)) - 1)) << lane;
+    }
+    return lanes;
+}
+
 /// The quotients of the lanes from `lane` on, in the order of operations of `barycentrics`.
 template <class Planes>
 HWY_INLINE void barycentric_lanes(const Planes& planes, const double* x, const double* y, size_t lane, BarycentricWave& out) {
@@ -133,15 +162,10 @@ HWY_ATTR inline void barycentric_wave(const Frame& frame, const uint32_t* setup_
     }
     alignas(64) double px[32];
     alignas(64) double py[32];
-    bool one_triangle = true;
+    sample_points(offset, x, y, px, py);
     const uint32_t first = setup_index[std::countr_zero(mask)];
-    for (int lane = 0; lane < 32; ++lane) {
-        px[lane] = x + lane % kBlockWidth + double(offset[lane].x) / kSampleOne;
-        py[lane] = y + lane / kBlockWidth + double(offset[lane].y) / kSampleOne;
-        one_triangle &= (mask >> lane & 1u) == 0 || setup_index[lane] == first;
-    }
     const size_t step = hn::Lanes(SampleLanes());
-    if (one_triangle) {
+    if ((lanes_of_triangle(setup_index, first) & mask) == mask) {
         const BroadcastPlanes planes(frame.triangle(first));
         for (size_t lane = 0; lane < 32; lane += step) barycentric_lanes(planes, px, py, lane, out);
     } else {

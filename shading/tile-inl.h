@@ -463,8 +463,15 @@ class TileRenderer {
             return;
         }
 
-        tap_sum_.clear();
         const bool covers = layered && material.plans.shaded.holds(kBaseColor);
+        if (!covers && inputs_.planes.hits < 0 && is_one_tap(material)) {
+            for_each_shaded_tap(taps_, material.plans.shaded, maps_.slot, [&](const WaveFloat& weight, WaveMask lanes) HWY_ATTR {
+                shade_maps(draw, lanes);
+                if (watched()) tell_shaded(draw, lanes, {&weight, nullptr});
+            });
+            return;
+        }
+        tap_sum_.clear();
         const WaveFloat* const vertex = draw.mesh->colors.empty() ? nullptr : &fragment_.color.channel[3];
         WaveFloat alpha;
         for_each_shaded_tap(taps_, material.plans.shaded, maps_.slot, [&](const WaveFloat& weight, WaveMask lanes) HWY_ATTR {
@@ -475,6 +482,14 @@ class TileRenderer {
         });
         tap_sum_.radiance(radiance_);
         if (inputs_.planes.hits >= 0) tap_sum_.layers(surface_);
+    }
+
+    /// Whether what is seen is one tap of weight 1, so that there is no sum.
+    static bool is_one_tap(const MaterialState& material) {
+        const TapPlans& plans = material.plans;
+        if (plans.enumerates || plans.taps != 1 || plans.roles.sign) return false;
+        return std::ranges::none_of(material.maps,
+                                    [](const MapState& map) { return map.sampler.estimator == texunit::Estimator::AbsWeight; });
     }
 
     void find_lod(const MapState& map, WaveMask pass, WaveFloat& lod) {

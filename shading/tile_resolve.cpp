@@ -120,6 +120,14 @@ void TileResolver::put_channels(Image& image) const {
         const float* row = &values_[size_t(y / kWaveHeight * waves_x * kWaveLanes + y % kWaveHeight * kWaveWidth)];
         for (int wave = x0 / kWaveWidth; wave * kWaveWidth < x1; ++wave) {
             const float* value = row + size_t(wave * kWaveLanes);
+            if (wave * kWaveWidth >= x0 && (wave + 1) * kWaveWidth <= x1) {
+                // All eight, which compilers turn into vectors.
+                for (int i = 0; i < kWaveWidth; ++i)
+                    for (int channel = 0; channel < kChannels; ++channel)
+                        out[i * kChannels + channel] = value[size_t(channel) * pixels_ + size_t(i)];
+                out += kWaveWidth * kChannels;
+                continue;
+            }
             const int first = std::max(x0 - wave * kWaveWidth, 0), last = std::min(x1 - wave * kWaveWidth, kWaveWidth);
             for (int i = first; i < last; ++i)
                 for (int channel = 0; channel < kChannels; ++channel) *out++ = value[size_t(channel) * pixels_ + size_t(i)];

@@ -66,11 +66,17 @@ HWY_INLINE IntVec ensure_window(Texture& texture, const TexelWindow& window, con
     const auto row = row_offset_v<storage>(y, look_up_level(d, table.row_stride, of_level));
     const auto index = hn::Add(hn::Add(look_up_level(d, table.offset, of_level), column_offset_v<storage>(x)), row);
     const uint32_t ready = texture.ready_levels();
-    if ((ready >> level[0] & 1) == 0) {
-        WaveInt indices[1];
-        for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) hn::Store(index, d, indices[0].lane + i);
-        ensure_blocks(texture, indices);
+    if ((ready >> level[0] & 1) != 0) return index;
+    WaveInt indices[1];
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) hn::Store(index, d, indices[0].lane + i);
+    // A window touches the blocks of its corners and no others.
+    bool all = true;
+    for (const size_t corner : {0, kWindow - 1, kWindow * (kWindow - 1), kWindow * kWindow - 1}) {
+        const int32_t texel = indices[0].lane[corner];
+        const int block = texel >> kLog2TexelsPerBlock & (BlockStates::kGroup - 1);
+        all = all && (texture.ready_blocks(texel >> kLog2TexelsPerGroup) >> block & 1) != 0;
     }
+    if (!all) ensure_blocks(texture, indices);
     return index;
 }
 
