@@ -1,6 +1,7 @@
 #include "cli/commands/compare.h"
 
 #include "cli/comparable_image.h"
+#include "cli/comparison_page.h"
 #include "cli/comparison_report.h"
 #include "cli/image_output.h"
 #include "cli/metrics/metrics.h"
@@ -63,6 +64,8 @@ class CompareCommand : public Command {
                     [this](const std::string& text) { flip_map_ = text; });
         line.flag("--json", "the figures as JSON instead of a table; infinite ones are null", json_);
         line.option("--csv", "FILE", "the figures as a comma-separated file", [this](const std::string& text) { csv_ = text; });
+        line.option("--html", "FILE", "a page of the images under a slider, maps of their errors and the figures, all in one file",
+                    [this](const std::string& text) { html_ = text; });
         line.option("--flip", "KIND",
                     "auto: hdr where both images hold linear light, else ldr; ldr: as they show on a screen; hdr: the worst of a range of "
                     "exposures; none (default auto)",
@@ -88,10 +91,22 @@ class CompareCommand : public Command {
         const std::string& reference_path = words_[1];
         const ComparableImage reference = read_comparable(reference_path);
         std::vector<Comparison> comparisons;
-        for (size_t i = 0; i < words_.size(); ++i)
-            if (i != 1) comparisons.push_back(compare(words_[i], reference, i == 0, *executor, invocation));
+        std::vector<ComparedPicture> pictures;  // for the page alone
+        for (size_t i = 0; i < words_.size(); ++i) {
+            if (i == 1) {
+                if (!html_.empty()) pictures.push_back({reference_path, reference, {}, true});
+                continue;
+            }
+            ComparableImage test = read_comparable(words_[i]);
+            comparisons.push_back(compare(words_[i], test, reference, *executor, invocation));
+            if (i == 0) write_maps(test, reference, comparisons[0], invocation.command_line);
+            auto& flip = comparisons.back().flip;
+            if (!html_.empty()) pictures.push_back({words_[i], std::move(test), flip ? flip->map : Image{}, false});
+            if (flip) flip->map = {};
+        }
+        if (!html_.empty()) write_text(html_, comparison_page(pictures, comparisons, invocation.command_line));
         invocation.out << (json_ ? print_json(reference_path, comparisons) : print_table(comparisons));
-        if (!csv_.empty()) write_csv(reference_path, comparisons);
+        if (!csv_.empty()) write_text(csv_, print_csv(reference_path, comparisons));
         return check(comparisons, invocation) ? kDone : kCheckFailed;
     }
 
@@ -113,17 +128,14 @@ class CompareCommand : public Command {
             outputs.push_back({option, path});
         }
         if (!csv_.empty()) outputs.push_back({"--csv", csv_});
+        if (!html_.empty()) outputs.push_back({"--html", html_});
         check_outputs(outputs, words_);
     }
 
-    void write_csv(const std::string& reference, const std::vector<Comparison>& comparisons) const {
-        const std::string text = print_csv(reference, comparisons);
-        scenes::write_file(csv_, std::as_bytes(std::span(text)));
-    }
+    static void write_text(const std::string& path, const std::string& text) { scenes::write_file(path, std::as_bytes(std::span(text))); }
 
-    Comparison compare(const std::string& path, const ComparableImage& reference, bool is_first, shading::Executor& executor,
+    Comparison compare(const std::string& path, const ComparableImage& test, const ComparableImage& reference, shading::Executor& executor,
                        const Invocation& invocation) const {
-        const ComparableImage test = read_comparable(path);
         const Image& image = test.image;
         if (image.width != reference.image.width || image.height != reference.image.height)
             throw scenes::InputError(path + ": the extents differ from the reference's (found " + print_extents(image) + ", allowed " +
@@ -131,17 +143,23 @@ class CompareCommand : public Command {
         if (test.linear != reference.linear)
             warn(invocation, path + " and " + words_[1] + ": one holds linear light and the other display values");
         const int channels = std::max(image.channels, reference.image.channels);
-        const Image test_values = with_channels(image, channels), reference_values = with_channels(reference.image, channels);
-        Comparison comparison{path, image_error(test_values.values, reference_values.values), {}};
+        Comparison comparison{
+            path, image_error(with_channels(image, channels).values, with_channels(reference.image, channels).values), {}};
         if (flip_.kind != FlipKind::None) comparison.flip = flip_comparison(test, reference, flip_, executor);
-        if (!is_first) return comparison;
-        if (!output_.empty()) write_difference(output_, absolute_difference(test_values, reference_values), invocation.command_line);
-        if (!flip_map_.empty()) {
-            if (comparison.flip->map.values.empty())
-                throw scenes::InputError(path + " or " + words_[1] + ": FLIP has no map of images with values that are not finite");
-            write_flip_map(flip_map_, comparison.flip->map, invocation.command_line);
-        }
         return comparison;
+    }
+
+    // Of the first image.
+    void write_maps(const ComparableImage& test, const ComparableImage& reference, const Comparison& comparison,
+                    const std::string& command) const {
+        const int channels = std::max(test.image.channels, reference.image.channels);
+        if (!output_.empty())
+            write_difference(output_, absolute_difference(with_channels(test.image, channels), with_channels(reference.image, channels)),
+                             command);
+        if (flip_map_.empty()) return;
+        if (comparison.flip->map.values.empty())
+            throw scenes::InputError(words_[0] + " or " + words_[1] + ": FLIP has no map of images with values that are not finite");
+        write_flip_map(flip_map_, comparison.flip->map, command);
     }
 
     // Written so that a figure that is not a number fails.
@@ -165,7 +183,7 @@ class CompareCommand : public Command {
     }
 
     std::vector<std::string> words_;
-    std::string output_, flip_map_, csv_;
+    std::string output_, flip_map_, csv_, html_;
     bool json_ = false;
     FlipRequest flip_;
     std::optional<float> pixels_per_degree_;
