@@ -1,5 +1,6 @@
 #include "cli/comparison_report.h"
 
+#include "cli/csv_text.h"
 #include "cli/version.h"
 
 #include <nlohmann/json.hpp>
@@ -21,14 +22,6 @@ std::array<double, 6> figures(const ImageError& error) { return {error.mse, erro
 
 std::array<double, 6> figures(const FlipFigures& flip) {
     return {flip.mean, flip.weighted_q1, flip.weighted_median, flip.weighted_q3, flip.min, flip.max};
-}
-
-// RFC 4180: quotes around what holds a comma, a quote or a line end; quotes doubled.
-std::string csv_field(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted + "\"";
 }
 
 // Cells of text under a heading: the first column to the left, the others to the right.
