@@ -19,7 +19,7 @@ constexpr double kColourExponent = 0.7, kFeatureExponent = 0.5, kKneeColour = 0.
 // The HDR paper, section 3.1: what the exposures aim at.
 constexpr double kExposedTarget = 0.85;
 
-/// Rows [first, last) of an image as it is shown, and what the filters make of it.
+/// Rows [first, last) of an image.
 struct Rows {
     int first = 0, last = 0;
 };

@@ -40,8 +40,9 @@ std::vector<float> ldr_flip(const FlipImages& images, double pixels_per_degree, 
 std::vector<float> hdr_flip(const FlipImages& images, const FlipExposures& exposures, double pixels_per_degree,
                             const FlipParallelFor& parallel_for = flip_serial_for);
 
-/// From where the brightest pixel of `reference` shows at 0.85 to where the median luminance does, one exposure a stop and at least two
-/// (section 3.1 of the HDR paper). Where the median is 0 it is that of the pixels above 0; of a black image the exposures are 0.
+/// From where the brightest pixel of `reference` shows at 0.85 to where the median luminance does, as many as there are stops between,
+/// whole ones counted up, and at least two (section 3.1 of the HDR paper). Where the median is 0 it is that of the pixels above 0; of a
+/// black image the exposures are 0.
 FlipExposures flip_exposures(std::span<const float> reference);
 
 /// An error map in figures. A weighted percentile is the smallest error such that it and the errors below it add up to that share of the

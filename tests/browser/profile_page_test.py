@@ -12,7 +12,7 @@ class ProfilePage(ReportTest):
     @classmethod
     def make(cls):
         cls.out = cls.path("out")
-        rawtexel("profile", "metal-edge", "-o", cls.out, "--size", "96x64", "--crop", "20,10,64,40", "--spp", "2", "--progress", "never",
+        rawtexel("profile", "metal-edge", "-o", cls.out, "--size", "96x64", "--crop", "20,10,64,40", "--spp", "40", "--progress", "never",
                  "--compare-with", "--filter nearest --mip nearest", "--compare-with", "--estimator reservoir")
         cls.page = cls.out + "/index.html"
         with open(cls.out + "/profile.json") as file:

@@ -35,7 +35,7 @@ TEST(HeatMap, ShowsItsValuesInTheRangeOfItsLegend) {
 }
 
 TEST(HeatMap, IsAsWideAsItsLegendNeeds) {
-    const Canvas canvas = draw_heat_map(ramp(3, 2), {"texel reads a pixel", 0.0, 123456.0});
+    const Canvas canvas = draw_heat_map(ramp(3, 2), {"texel reads a pixel", 123.456, 654321.0});
     EXPECT_EQ(canvas.width, kLeastHeatMapWidth);
     EXPECT_EQ(pixel(canvas, 3, 0), (Rgb8{255, 255, 255}));
     // Nothing runs out of the picture: its last column and row are paper.

@@ -172,6 +172,18 @@ TEST(Profile, SettingsBesideAreThoseOfTheirOwnProfile) {
     }
 }
 
+TEST(Profile, SettingsBesideHaveTheirOwnPolicies) {
+    const TemporaryFolder folder;
+    test::write_file(folder / "policy.json", R"({"textures": {"inlay color": {"filter": "nearest", "mip": "none"}}})");
+    const Json both = profile(folder / "a", "metal-edge", {"--compare-with", "--policy '" + folder / "policy.json" + "'"});
+    const Json own = profile(folder / "b", "metal-edge", {"--policy", folder / "policy.json"});
+    EXPECT_EQ(both["compare_with"][0]["texture"], own["texture"]);
+    EXPECT_NE(both["texture"], own["texture"]);
+    EXPECT_EQ(why_not_failed(run({"profile", "metal-edge", "-o", folder / "a", "--compare-with", "--policy " + folder / "a/profile.json"}),
+                             kWrongUsage, "would replace a file that is read"),
+              "");
+}
+
 TEST(Profile, TableOfTexturesSumsToTheTotals) {
     const TemporaryFolder folder;
     const Json json = profile(folder / "out", "metal-edge");
