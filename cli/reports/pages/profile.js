@@ -130,7 +130,7 @@ function fillCounters(table, columns) {
         withRates.forEach((column, i) => {
             const value = valueAt(column.numbers, counter);
             row[column.label] = value ?? null;
-            if (i > 0) row[`${column.label} difference`] = first ? `${value >= first ? '+' : '−'}${figure(Number((Math.abs(value / first - 1) * 100).toPrecision(3)))} %` : '–';
+            if (i > 0) row[`${column.label} difference`] = value === first ? '=' : first ? `${value >= first ? '+' : '−'}${figure(Number((Math.abs(value / first - 1) * 100).toPrecision(3)))} %` : '–';
         });
         return row;
     });
