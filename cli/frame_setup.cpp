@@ -50,6 +50,7 @@ shading::RenderOptions frame_options(const RenderRequest& request, const shading
     options.fetches.model = request.fetches.model.value_or(shading::FetchModel::Visible);
     options.fetches.cache = request.fetches.cache;
     options.tile_size = request.machine.tile_size;
+    options.skips = request.machine.skips.skips;
     return options;
 }
 

@@ -135,6 +135,7 @@ void declare_machine_options(CommandLine& line, MachineOptions& machine) {
                     using texunit::Simd;
                     machine.simd = parse_choice("--simd", text, {Simd::Auto, Simd::Scalar, Simd::Sse4, Simd::Avx2, Simd::Avx3});
                 });
+    declare_skip_options(line, machine.skips);
     line.option("--progress", "auto|always|never",
                 "a bar on a terminal, percent lines elsewhere; auto shows it only when it takes a while (default auto)",
                 [&](const std::string& text) {
@@ -294,6 +295,8 @@ void settle(RenderRequest& request) {
     check_lookup(request.lookup);
     if (request.light.peer_shading) preset_peer_shading(request);
     if (request.samples.reference) preset_reference(request);
+    if (request.lookup.footprint.area == shading::FootprintArea::Sample && request.samples.spp == 1)
+        throw UsageError("--footprint sample: one sample's share is the whole pixel (allowed: with --spp 2 and more)");
     if (request.lookup.filtering.shadow_taps == shading::ShadowTaps::One && request.light.shadows == false)
         throw UsageError("--shadow-taps one: there are no shadows to test (--shadows off, --peer-shading)");
 }

@@ -7,6 +7,7 @@
 #include "cli/lookup_options.h"
 #include "cli/progress.h"
 #include "cli/sequence_options.h"
+#include "cli/skip_options.h"
 #include "shading/display.h"
 #include "shading/render.h"
 #include "texunit/simd.h"
@@ -86,6 +87,7 @@ struct MachineOptions {
     int tile_size = 64;
     texunit::Simd simd = texunit::Simd::Auto;
     ProgressMode progress = ProgressMode::Auto;
+    SkipRequest skips;
 };
 
 struct RenderRequest {

@@ -78,6 +78,8 @@ Json geometry_numbers(const raster::FrameCounts& counts) {
             {"culled_backface", counts.culled_backface},
             {"culled_degenerate", counts.culled_degenerate},
             {"culled_small", counts.culled_small},
+            {"culled_unsampled", counts.culled_unsampled},
+            {"culled_occluded", counts.culled_occluded},
             {"culled_nonfinite", counts.culled_nonfinite},
             {"clipped", counts.clipped},
             {"binned", counts.binned},

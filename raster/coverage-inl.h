@@ -7,6 +7,7 @@
 #endif
 
 #include "raster/edge.h"
+#include "raster/tile_grid.h"
 #include "raster/visibility.h"
 
 #include <hwy/highway.h>
@@ -56,12 +57,14 @@ struct TilePass {
           width(std::min(size, frame.options().width - x)),
           height(std::min(size, frame.options().height - y)) {
         std::fill_n(frame_offset, kBlockLanes, samples.frame);
+        frame_x = double(samples.frame.x) / kSampleOne;
+        frame_y = double(samples.frame.y) / kSampleOne;
         offset_box = {samples.frame.x, samples.frame.x, samples.frame.y, samples.frame.y};
         if (samples.per_pixel != nullptr) measure_offsets();
 #ifndef NDEBUG
-        const double reach = std::ceil(double(frame.options().filter_radius) * kSampleOne);
-        assert(double(offset_box.x_min) >= kSampleOne / 2 - reach && double(offset_box.x_max) <= kSampleOne / 2 + reach);
-        assert(double(offset_box.y_min) >= kSampleOne / 2 - reach && double(offset_box.y_max) <= kSampleOne / 2 + reach);
+        const TileGrid grid(frame.options());
+        assert(offset_box.x_min >= grid.reach().x_min && offset_box.x_max <= grid.reach().x_max);
+        assert(offset_box.y_min >= grid.reach().y_min && offset_box.y_max <= grid.reach().y_max);
 #endif
     }
 
@@ -76,6 +79,9 @@ struct TilePass {
         }
         offset_box = {least.x, greatest.x, least.y, greatest.y};
     }
+
+    /// The tile lies inside the frame.
+    bool whole() const { return width == size && height == size; }
 
     /// Lanes of the wave at (column, row) of the tile that lie inside the frame.
     uint32_t lanes_inside(int column, int row) const {
@@ -97,6 +103,7 @@ struct TilePass {
     TileSamples samples;
     int size, x, y, width, height;  // pixels; width and height of the part inside the frame
     SampleBox offset_box;           // of all offsets in use
+    double frame_x, frame_y;        // samples.frame in pixels
     SampleOffset frame_offset[kBlockLanes];
 };
 

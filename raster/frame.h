@@ -1,6 +1,7 @@
 // One frame's geometry: transformed, clipped, culled, set up in fixed point and binned to tiles, once for all samples.
 #pragma once
 
+#include "raster/mesh_clusters.h"
 #include "raster/sample_grid.h"
 
 #include <glm/glm.hpp>
@@ -8,6 +9,8 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,6 +31,8 @@ struct Draw {
     uint32_t vertex_count = 0;
     const uint32_t* indices = nullptr;  ///< 3 per triangle, each < vertex_count (asserted)
     uint32_t triangle_count = 0;
+    /// make_clusters() of these positions and indices. Null: made for this frame alone, which takes longer than drawing them.
+    const MeshClusters* clusters = nullptr;
     /// Clip space as Vulkan's but y up: x_clip/w_clip is -1 at the left and 1 at the right, y_clip/w_clip 1 at the top and -1 at the
     /// bottom. Reversed depth: z_clip/w_clip is 1 at the near plane and falls to 0 far away. Visible is 0 <= z_clip <= w_clip.
     glm::mat4 clip_from_object{1.0f};
@@ -38,6 +43,15 @@ struct Draw {
     bool front_is_clockwise = false;
 };
 
+/// Work that is left out where it cannot change what is seen; each can be turned off.
+struct RasterSkips {
+    bool clusters = true;   ///< tests of whole clusters, before their vertices are transformed
+    bool frustum = true;    ///< of clusters and of triangles that lie outside of the view
+    bool backface = true;   ///< of clusters and of triangles that face away, before they are set up
+    bool occlusion = true;  ///< of clusters behind what large opaque clusters cover
+    bool hiz = true;        ///< of what lies behind all of an 8x8 block
+};
+
 struct FrameOptions {
     int width = 0, height = 0;  ///< pixels of the whole frame, 1..16384
     /// Only tiles that touch it are binned; zero extents mean the whole frame.
@@ -45,15 +59,22 @@ struct FrameOptions {
     int tile_size = 64;  ///< pixels, a multiple of 8; tiles are aligned to the whole frame whatever the crop
     /// Farthest a sample point lies from its pixel's centre along one axis, pixels. Conservative tests are widened by it.
     float filter_radius = 0.0f;
+    /// The offsets that the frame's samples have; nullopt: all within filter_radius.
+    std::optional<OffsetRange> reach = std::nullopt;
+    /// Opaque triangles are drawn in scene order, as whoever counts overdraw wants them, and not the nearest clusters first.
+    bool scene_order = false;
+    RasterSkips skips = {};
 };
 
-/// Every triangle has exactly one fate: it is binned, or culled for one of five reasons.
+/// Every triangle has exactly one fate: it is binned, or culled for one of seven reasons.
 struct FrameCounts {
     uint64_t triangles = 0;
     uint64_t culled_frustum = 0;  ///< outside the view volume, or reaching no sample point of a tile that touches the crop
     uint64_t culled_backface = 0;
     uint64_t culled_degenerate = 0;       ///< no area once snapped
-    uint64_t culled_small = 0;            ///< between the sample points
+    uint64_t culled_small = 0;            ///< between the points that the pixel filter may sample
+    uint64_t culled_unsampled = 0;        ///< between the points that this frame samples
+    uint64_t culled_occluded = 0;         ///< in clusters behind what large opaque clusters cover
     uint64_t culled_nonfinite = 0;        ///< a vertex was NaN or infinite after the transform
     uint64_t binned = 0;                  ///< reached a bin, whole or in pieces
     uint64_t clipped = 0;                 ///< triangles that a plane cut and that something was left of; not a fate
@@ -92,35 +113,59 @@ struct alignas(64) SetupTriangle {
 
 inline constexpr uint32_t kNoTriangle = 0xFFFFFFFFu;
 
+class FrameMemory;
+struct SetupBatch;
+
 /// The same draws give the same frame for any number of threads. Movable, not copyable: its triangles point into it.
 class Frame {
   public:
-    /// Throws std::length_error when more than 2^32 - 2 triangles or bin entries are left after culling.
+    /// Throws std::length_error when more than some 2^31 triangles or 2^32 - 1 bin entries are left after culling.
     Frame(const FrameOptions& options, std::span<const Draw> draws, const ParallelFor& parallel_for = serial_for);
-    Frame(Frame&&) noexcept = default;
-    Frame& operator=(Frame&&) noexcept = default;
+    ~Frame();
+    Frame(Frame&&) noexcept;
+    Frame& operator=(Frame&&) noexcept;
     Frame(const Frame&) = delete;
     Frame& operator=(const Frame&) = delete;
 
     const FrameOptions& options() const { return options_; }
     const FrameCounts& counts() const { return counts_; }
+    uint64_t serial() const { return serial_; }  ///< not 0, and no other frame's of this process
     int tiles_x() const { return tiles_x_; }
     int tiles_y() const { return tiles_y_; }
-    const SetupTriangle& triangle(uint32_t setup_index) const { return triangles_[setup_index]; }
-    uint32_t triangle_count() const { return uint32_t(triangles_.size()); }
-    /// Setup indices of the triangles that may touch a sample of the tile: opaque first, then masked, then blended, each in scene order.
+    const SetupTriangle& triangle(uint32_t setup_index) const {
+        return blocks_[setup_index / kBlockTriangles][setup_index % kBlockTriangles];
+    }
+    uint32_t triangle_count() const { return triangle_count_; }
+    /// Calls visit(setup index, triangle) in the order of setup indices, which have gaps.
+    template <class Visit>
+    void for_each_triangle(Visit&& visit) const {
+        for (size_t block = 0; block < blocks_.size(); ++block) {
+            for (uint32_t i = 0; i < block_size_[block]; ++i) visit(uint32_t(block * kBlockTriangles + i), blocks_[block][i]);
+        }
+    }
+    /// Setup indices of the triangles that may touch a sample of the tile: opaque first, those of near clusters before those of far ones or
+    /// in scene order (FrameOptions::scene_order); then masked, then blended, in scene order.
     /// Empty for tiles that do not touch the crop.
     std::span<const uint32_t> bin(int tile_x, int tile_y) const;
 
   private:
-    void set_up(std::span<const Draw> draws, const ParallelFor& parallel_for);
-    void fill_bins(const ParallelFor& parallel_for);
+    static constexpr uint32_t kBlockTriangles = 4096;
+
+    void number_blocks(std::vector<SetupBatch>& batches, std::vector<uint32_t>& first_block);
+    void fill_bins(const std::vector<SetupBatch>& batches, const std::vector<uint32_t>& first_block, const ParallelFor& parallel_for);
+    void sort_bins(const ParallelFor& parallel_for);
 
     FrameOptions options_;
+    uint64_t serial_;
     FrameCounts counts_;
     int tiles_x_ = 0, tiles_y_ = 0;
-    std::vector<SetupTriangle> triangles_;
-    std::vector<std::array<Plane, 3>> piece_planes_;
+    uint32_t triangle_count_ = 0;
+    uint32_t first_layered_ = 0;  ///< first setup index that is not of opaque geometry
+    std::unique_ptr<FrameMemory> memory_;
+    std::vector<const SetupTriangle*> blocks_;
+    std::vector<uint32_t> block_size_;
+    std::vector<std::vector<SetupTriangle>> overflow_;
+    std::vector<std::vector<std::array<Plane, 3>>> piece_planes_;
     std::vector<uint32_t> bin_start_, bin_entries_;
 };
 

@@ -16,35 +16,19 @@ int32_t snap_coordinate(double pixels) {
 
 }  // namespace
 
-SnappedPosition snap(const ScreenVertex& v) { return {snap_coordinate(v.x / v.w), snap_coordinate(v.y / v.w)}; }
-
-VertexTransform::VertexTransform(const Draw& draw, const FrameOptions& options)
-    : positions_(draw.positions), half_width_(0.5 * options.width), half_height_(0.5 * options.height) {
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row) matrix_[column][row] = double(draw.clip_from_object[column][row]);
-    }
-}
-
-ScreenVertex VertexTransform::operator()(uint32_t vertex) const {
-    const glm::vec3& p = positions_[vertex];
-    const double px = double(p.x), py = double(p.y), pz = double(p.z);
-    const auto row = [&](int r) { return ((matrix_[0][r] * px + matrix_[1][r] * py) + matrix_[2][r] * pz) + matrix_[3][r]; };
+ScreenVertex to_screen(const glm::mat4& clip_from_object, const glm::vec3& position, const FrameOptions& options) {
+    const glm::mat4& m = clip_from_object;
+    const double px = double(position.x), py = double(position.y), pz = double(position.z);
+    const auto row = [&](int r) { return ((double(m[0][r]) * px + double(m[1][r]) * py) + double(m[2][r]) * pz) + double(m[3][r]); };
     const double x = row(0), y = row(1), z = row(2), w = row(3);
-    return {(w + x) * half_width_, (w - y) * half_height_, z, w};
+    return {(w + x) * (0.5 * options.width), (w - y) * (0.5 * options.height), z, w};
 }
 
-VertexCache::VertexCache(const VertexTransform& transform) : transform_(transform) {
-    // No vertex fits the slot that its own number does not select.
-    for (uint32_t slot = 0; slot < kSlots; ++slot) vertex_[slot] = slot + 1;
+double depth_of(const ScreenVertex& v) {
+    // Adding zero turns -0 into 0.
+    return std::clamp(v.z / v.w, 0.0, 1.0) + 0.0;
 }
 
-const ScreenVertex& VertexCache::operator[](uint32_t vertex) {
-    const uint32_t slot = vertex % kSlots;
-    if (vertex_[slot] != vertex) {
-        vertex_[slot] = vertex;
-        value_[slot] = transform_(vertex);
-    }
-    return value_[slot];
-}
+SnappedPosition snap(const ScreenVertex& v) { return {snap_coordinate(v.x / v.w), snap_coordinate(v.y / v.w)}; }
 
 }  // namespace rawtexel::raster

@@ -18,6 +18,13 @@ inline bool is_finite(const ScreenVertex& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
+/// Object space to homogeneous pixels: the same bits for the same position and matrix, whatever the triangle; raster/cluster_setup-inl.h
+/// has it in vectors.
+ScreenVertex to_screen(const glm::mat4& clip_from_object, const glm::vec3& position, const FrameOptions& options);
+
+/// z/w from 0 to 1, never -0. The vertex lies before the near plane.
+double depth_of(const ScreenVertex& v);
+
 /// A position snapped to 24.8.
 struct SnappedPosition {
     int32_t x, y;
@@ -25,30 +32,5 @@ struct SnappedPosition {
 
 /// To 1/256 pixel, nearest, ties to even (D3D11.3, "Coordinate Snapping"). The vertex lies in the view volume's guard band.
 SnappedPosition snap(const ScreenVertex& v);
-
-/// Object space to homogeneous pixels: the same bits for the same position and matrix, whatever the triangle.
-class VertexTransform {
-  public:
-    VertexTransform(const Draw& draw, const FrameOptions& options);
-    ScreenVertex operator()(uint32_t vertex) const;
-
-  private:
-    const glm::vec3* positions_;
-    double matrix_[4][4];              ///< columns, as in GLM
-    double half_width_, half_height_;  ///< pixels
-};
-
-/// Remembers the vertices transformed last, which the triangles of a mesh ask for again and again.
-class VertexCache {
-  public:
-    explicit VertexCache(const VertexTransform& transform);
-    const ScreenVertex& operator[](uint32_t vertex);
-
-  private:
-    static constexpr uint32_t kSlots = 256;
-    const VertexTransform& transform_;
-    std::array<uint32_t, kSlots> vertex_;
-    std::array<ScreenVertex, kSlots> value_;
-};
 
 }  // namespace rawtexel::raster

@@ -11,10 +11,10 @@ constexpr int64_t kCentre = kSampleOne / 2;
 
 int64_t floor_divide(int64_t a, int64_t b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
-/// Whether some pixel's range of sample points along one axis, centre +- radius, meets [low, high].
-bool meets_samples(int64_t low, int64_t high, int64_t radius) {
-    const int64_t first_pixel = floor_divide(low - kCentre - radius + kSampleOne - 1, kSampleOne);
-    return first_pixel * kSampleOne + kCentre - radius <= high;
+/// Whether some pixel's range of sample points along one axis meets [low, high].
+bool meets_samples(int64_t low, int64_t high, int64_t first_offset, int64_t last_offset) {
+    const int64_t first_pixel = floor_divide(low - last_offset + kSampleOne - 1, kSampleOne);
+    return first_pixel * kSampleOne + first_offset <= high;
 }
 
 }  // namespace
@@ -22,8 +22,15 @@ bool meets_samples(int64_t low, int64_t high, int64_t radius) {
 TileGrid::TileGrid(const FrameOptions& options) : tile_size_(options.tile_size), width_(options.width), height_(options.height) {
     assert(width_ >= 1 && width_ <= kMaxFrameExtent && height_ >= 1 && height_ <= kMaxFrameExtent);
     assert(tile_size_ > 0 && tile_size_ % kBlockWidth == 0);
-    assert(options.filter_radius >= 0.0f && options.filter_radius <= 16.0f);
-    radius_ = int64_t(std::ceil(double(options.filter_radius) * kSampleOne));
+    assert(options.filter_radius >= 0.0f && options.filter_radius <= float(kMostFilterRadius));
+    const int64_t radius = int64_t(std::ceil(double(options.filter_radius) * kSampleOne));
+    support_ = {kCentre - radius, kCentre + radius, kCentre - radius, kCentre + radius};
+    reach_ = support_;
+    if (options.reach) {
+        reach_ = {options.reach->x_min, options.reach->x_max, options.reach->y_min, options.reach->y_max};
+        assert(support_.x_min <= reach_.x_min && reach_.x_min <= reach_.x_max && reach_.x_max <= support_.x_max);
+        assert(support_.y_min <= reach_.y_min && reach_.y_min <= reach_.y_max && reach_.y_max <= support_.y_max);
+    }
     tiles_x_ = (width_ + tile_size_ - 1) / tile_size_;
     tiles_y_ = (height_ + tile_size_ - 1) / tile_size_;
 
@@ -44,21 +51,19 @@ TileGrid::TileGrid(const FrameOptions& options) : tile_size_(options.tile_size),
 SampleBox TileGrid::tile_box(int tile_x, int tile_y) const {
     const int x0 = tile_x * tile_size_, y0 = tile_y * tile_size_;
     const int x1 = std::min(x0 + tile_size_, width_) - 1, y1 = std::min(y0 + tile_size_, height_) - 1;
-    const auto first = [&](int pixel) { return int64_t{pixel} * kSampleOne + kCentre - radius_; };
-    const auto last = [&](int pixel) { return int64_t{pixel} * kSampleOne + kCentre + radius_; };
-    return {first(x0), last(x1), first(y0), last(y1)};
+    const auto at = [](int pixel, int64_t offset) { return int64_t{pixel} * kSampleOne + offset; };
+    return {at(x0, reach_.x_min), at(x1, reach_.x_max), at(y0, reach_.y_min), at(y1, reach_.y_max)};
 }
 
-bool TileGrid::may_hold_sample(const SampleBox& box) const {
-    return meets_samples(box.x_min, box.x_max, radius_) && meets_samples(box.y_min, box.y_max, radius_);
+bool TileGrid::may_hold_sample(const SampleBox& box, const SampleBox& offsets) {
+    return meets_samples(box.x_min, box.x_max, offsets.x_min, offsets.x_max) &&
+           meets_samples(box.y_min, box.y_max, offsets.y_min, offsets.y_max);
 }
 
-TileGrid::Range TileGrid::tiles_over(int64_t low, int64_t high, Range active, int extent) const {
-    // A sample at `low` belongs to a pixel no farther left than its own cell less the radius, and so on.
+TileGrid::Range TileGrid::tiles_over(int64_t low, int64_t high, int64_t first_offset, int64_t last_offset, Range active, int extent) const {
     const int64_t tile = int64_t{tile_size_} * kSampleOne;
-    const int64_t first_pixel_edge = low - kCentre - radius_, last_pixel_edge = high - kCentre + radius_;
-    const int64_t first_pixel = floor_divide(first_pixel_edge + kSampleOne - 1, kSampleOne);
-    const int64_t last_pixel = std::min(floor_divide(last_pixel_edge, kSampleOne), int64_t{extent} - 1);
+    const int64_t first_pixel = floor_divide(low - last_offset + kSampleOne - 1, kSampleOne);
+    const int64_t last_pixel = std::min(floor_divide(high - first_offset, kSampleOne), int64_t{extent} - 1);
     if (first_pixel > last_pixel || last_pixel < 0) return {0, -1};
     const int64_t first = std::max(floor_divide(first_pixel * kSampleOne, tile), int64_t{active.first});
     const int64_t last = std::min(floor_divide(last_pixel * kSampleOne, tile), int64_t{active.last});

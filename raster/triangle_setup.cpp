@@ -12,24 +12,8 @@ int64_t doubled_area(const SnappedPosition& p, const SnappedPosition& q, const S
     return (int64_t{q.x} - p.x) * (int64_t{r.y} - p.y) - (int64_t{r.x} - p.x) * (int64_t{q.y} - p.y);
 }
 
-double depth_of(const ScreenVertex& v) {
-    // Adding zero turns -0 into 0.
-    return std::clamp(v.z / v.w, 0.0, 1.0) + 0.0;
-}
-
 bool disjoint(const SampleBox& a, const SampleBox& b) {
     return a.x_max < b.x_min || b.x_max < a.x_min || a.y_max < b.y_min || b.y_max < a.y_min;
-}
-
-/// Gradient of the depth from the snapped positions, so that it is exact at the first vertex and as good as double allows elsewhere.
-void set_depth_plane(SetupTriangle& triangle, const std::array<double, 3>& depth) {
-    const double dx1 = triangle.x[1] - triangle.x[0], dy1 = triangle.y[1] - triangle.y[0];
-    const double dx2 = triangle.x[2] - triangle.x[0], dy2 = triangle.y[2] - triangle.y[0];
-    const double dz1 = depth[1] - depth[0], dz2 = depth[2] - depth[0];
-    const double area = dx1 * dy2 - dx2 * dy1;
-    triangle.depth_at_origin = depth[0];
-    triangle.depth_dx = (dz1 * dy2 - dz2 * dy1) / area * kSubpixelOne;
-    triangle.depth_dy = (dz2 * dx1 - dz1 * dx2) / area * kSubpixelOne;
 }
 
 void set_depth_range(SetupTriangle& triangle, const std::array<double, 3>& depth) {
@@ -38,7 +22,7 @@ void set_depth_range(SetupTriangle& triangle, const std::array<double, 3>& depth
     triangle.depth_max = float(high);
 }
 
-/// What whole triangles and pieces have in common.
+/// What the pieces of a triangle have in common.
 SetupTriangle make_triangle(const TriangleOrigin& origin, bool front_facing) {
     SetupTriangle triangle{};
     triangle.triangle_id = origin.triangle_id;
@@ -66,28 +50,21 @@ SnappedPolygon::SnappedPolygon(std::span<const ScreenVertex> vertices) : size(ve
     box = {2 * int64_t{x_min->x}, 2 * int64_t{x_max->x}, 2 * int64_t{y_min->y}, 2 * int64_t{y_max->y}};
 }
 
-void TriangleSetup::add(const std::array<ScreenVertex, 3>& corners, const TriangleOrigin& origin) {
-    const Fate fate = classify(corners, origin);
-    ++batch_.counts.triangles;
-    ++(batch_.counts.*fate);
+void ClippedSetup::add(const std::array<ScreenVertex, 3>& corners, uint32_t planes, const TriangleOrigin& origin) {
+    ++(counts_.*classify(corners, planes, origin));
 }
 
-TriangleSetup::Fate TriangleSetup::classify(const std::array<ScreenVertex, 3>& corners, const TriangleOrigin& origin) {
-    if (!std::all_of(corners.begin(), corners.end(), is_finite)) return &FrameCounts::culled_nonfinite;
-    const uint32_t outside[3] = {outside_planes(corners[0]), outside_planes(corners[1]), outside_planes(corners[2])};
-    if ((outside[0] & outside[1] & outside[2]) != 0 || outside_samples(corners)) return &FrameCounts::culled_frustum;
-
+ClippedSetup::Fate ClippedSetup::classify(const std::array<ScreenVertex, 3>& corners, uint32_t planes, const TriangleOrigin& origin) {
+    if (early_ && outside_samples(corners)) return &FrameCounts::culled_frustum;
     const Ordered ordered = order(corners);
-    const uint32_t crossing = outside[0] | outside[1] | outside[2];
-    if (crossing == 0) return add_polygon(ordered.vertex, ordered, origin, true);
     ClipPolygon polygon(ordered.vertex);
-    polygon.clip(crossing);
+    polygon.clip(planes);
     if (polygon.vertices().empty()) return &FrameCounts::culled_frustum;
-    ++batch_.counts.clipped;
-    return add_polygon(polygon.vertices(), ordered, origin, false);
+    ++counts_.clipped;
+    return add_polygon(polygon.vertices(), ordered, origin);
 }
 
-bool TriangleSetup::outside_samples(const std::array<ScreenVertex, 3>& corners) const {
+bool ClippedSetup::outside_samples(const std::array<ScreenVertex, 3>& corners) const {
     // Snapping moves a vertex by at most half of 1/256 pixel; a whole one also covers the rounding here.
     constexpr double slack = 1.0 / kSubpixelOne;
     const SampleBox& box = grid_.sample_box();
@@ -98,7 +75,7 @@ bool TriangleSetup::outside_samples(const std::array<ScreenVertex, 3>& corners) 
            all([&](const ScreenVertex& v) { return v.y < top * v.w; }) || all([&](const ScreenVertex& v) { return v.y > bottom * v.w; });
 }
 
-TriangleSetup::Ordered TriangleSetup::order(const std::array<ScreenVertex, 3>& corners) {
+ClippedSetup::Ordered ClippedSetup::order(const std::array<ScreenVertex, 3>& corners) {
     Ordered ordered{corners, {0, 1, 2}, false};
     const auto sort_pair = [&](size_t i, size_t j) {
         const ScreenVertex &p = ordered.vertex[i], &q = ordered.vertex[j];
@@ -114,58 +91,36 @@ TriangleSetup::Ordered TriangleSetup::order(const std::array<ScreenVertex, 3>& c
     return ordered;
 }
 
-TriangleSetup::Fate TriangleSetup::add_polygon(std::span<const ScreenVertex> polygon, const Ordered& ordered, const TriangleOrigin& origin,
-                                               bool whole) {
+ClippedSetup::Fate ClippedSetup::add_polygon(std::span<const ScreenVertex> polygon, const Ordered& ordered, const TriangleOrigin& origin) {
     const SnappedPolygon snapped(polygon);
     if (snapped.doubled_area == 0) return &FrameCounts::culled_degenerate;
     const bool clockwise = (snapped.doubled_area > 0) != ordered.odd;
     const bool front_facing = clockwise == origin.front_is_clockwise;
     if (!front_facing && origin.cull == CullMode::Back) return &FrameCounts::culled_backface;
     if (disjoint(snapped.box, grid_.sample_box())) return &FrameCounts::culled_frustum;
-    if (!grid_.may_hold_sample(snapped.box)) return &FrameCounts::culled_small;
+    if (!TileGrid::may_hold_sample(snapped.box, grid_.support())) return &FrameCounts::culled_small;
+    if (!TileGrid::may_hold_sample(snapped.box, grid_.reach())) return &FrameCounts::culled_unsampled;
 
-    const size_t first = batch_.triangles.size();
-    const SetupTriangle triangle = make_triangle(origin, front_facing);
-    HomogeneousPlanes planes;
-    if (whole) {
-        add_whole(snapped, ordered, triangle);
-    } else {
-        planes = homogeneous_planes(ordered.vertex, depth_of(polygon[0]));
-        add_pieces(polygon, snapped, planes, triangle);
-    }
+    const size_t first = pieces_.size();
+    const HomogeneousPlanes planes = homogeneous_planes(ordered.vertex, depth_of(polygon[0]));
+    add_pieces(polygon, snapped, planes, make_triangle(origin, front_facing));
     if (!reaches_a_tile(first)) {
-        batch_.triangles.resize(first);
+        pieces_.resize(first);
         return &FrameCounts::culled_frustum;
     }
-    if (!whole) link_planes(first, planes, ordered);
+    keep_planes(planes, ordered);
     return &FrameCounts::binned;
 }
 
-void TriangleSetup::add_whole(const SnappedPolygon& snapped, const Ordered& ordered, const SetupTriangle& common) {
-    // Positive winding. Triangles of the same three vertices turn the same way in their canonical order, so they stay alike.
-    const std::array<size_t, 3> index = snapped.doubled_area > 0 ? std::array<size_t, 3>{0, 1, 2} : std::array<size_t, 3>{0, 2, 1};
-    SetupTriangle& triangle = batch_.triangles.emplace_back(common);
-    set_positions(triangle, snapped, index);
-    std::array<double, 3> depth;
-    for (size_t i = 0; i < 3; ++i) {
-        const ScreenVertex& v = ordered.vertex[index[i]];
-        depth[i] = depth_of(v);
-        triangle.inverse_w[i] = 1.0 / v.w;
-        triangle.corner[i] = ordered.corner[index[i]];
-    }
-    set_depth_range(triangle, depth);
-    set_depth_plane(triangle, depth);
-}
-
-void TriangleSetup::add_pieces(std::span<const ScreenVertex> polygon, const SnappedPolygon& snapped, const HomogeneousPlanes& planes,
-                               const SetupTriangle& common) {
+void ClippedSetup::add_pieces(std::span<const ScreenVertex> polygon, const SnappedPolygon& snapped, const HomogeneousPlanes& planes,
+                              const SetupTriangle& common) {
     const bool positive = snapped.doubled_area > 0;
     for (size_t i = 1; i + 1 < snapped.size; ++i) {
         const int64_t area = doubled_area(snapped.position[0], snapped.position[i], snapped.position[i + 1]);
         // A piece that snapping has turned over lies doubled on the others.
         if (area == 0 || (area > 0) != positive) continue;
         const std::array<size_t, 3> index = positive ? std::array<size_t, 3>{0, i, i + 1} : std::array<size_t, 3>{0, i + 1, i};
-        SetupTriangle& piece = batch_.triangles.emplace_back(common);
+        SetupTriangle& piece = pieces_.emplace_back(common);
         set_positions(piece, snapped, index);
         set_depth_range(piece, {depth_of(polygon[index[0]]), depth_of(polygon[index[1]]), depth_of(polygon[index[2]])});
         piece.depth_dx = planes.depth.a;
@@ -174,18 +129,16 @@ void TriangleSetup::add_pieces(std::span<const ScreenVertex> polygon, const Snap
     }
 }
 
-void TriangleSetup::link_planes(size_t first_triangle, const HomogeneousPlanes& planes, const Ordered& ordered) {
-    for (size_t t = first_triangle; t < batch_.triangles.size(); ++t) {
-        batch_.links.push_back({uint32_t(t), uint32_t(batch_.piece_planes.size())});
-    }
-    std::array<Plane, 3>& by_corner = batch_.piece_planes.emplace_back();
+void ClippedSetup::keep_planes(const HomogeneousPlanes& planes, const Ordered& ordered) {
+    plane_of_piece_.resize(pieces_.size(), uint32_t(planes_.size()));
+    std::array<Plane, 3>& by_corner = planes_.emplace_back();
     for (size_t i = 0; i < 3; ++i) by_corner[ordered.corner[i]] = planes.bary_over_w[i];
 }
 
-bool TriangleSetup::reaches_a_tile(size_t first_triangle) const {
+bool ClippedSetup::reaches_a_tile(size_t first_piece) const {
     bool reached = false;
-    for (size_t t = first_triangle; t < batch_.triangles.size() && !reached; ++t) {
-        grid_.for_each_touched(batch_.triangles[t], [&](size_t) {
+    for (size_t i = first_piece; i < pieces_.size() && !reached; ++i) {
+        grid_.for_each_touched(pieces_[i], [&](size_t) {
             reached = true;
             return false;
         });

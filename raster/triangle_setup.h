@@ -1,4 +1,4 @@
-// From three transformed vertices to triangles ready for coverage: cull, clip, snap, planes.
+// From three transformed vertices that a plane parts to pieces ready for coverage: cull, clip, snap, planes.
 #pragma once
 
 #include "raster/clip.h"
@@ -23,18 +23,6 @@ struct SnappedPolygon {
     SampleBox box;
 };
 
-/// What one run of consecutive triangles became.
-struct SetupBatch {
-    /// The planes that triangle `triangle` of the batch shall point to, once the planes have found their place in memory.
-    struct PlaneLink {
-        uint32_t triangle, planes;
-    };
-    std::vector<SetupTriangle> triangles;
-    std::vector<std::array<Plane, 3>> piece_planes;
-    std::vector<PlaneLink> links;
-    FrameCounts counts;
-};
-
 /// Where a triangle comes from, and how its draw wants it.
 struct TriangleOrigin {
     uint32_t triangle_id, draw, primitive;
@@ -43,12 +31,21 @@ struct TriangleOrigin {
     bool front_is_clockwise;
 };
 
-class TriangleSetup {
+/// Sets up triangles that a plane cuts, one at a time; whole ones go by raster/cluster_setup.h.
+class ClippedSetup {
   public:
-    TriangleSetup(const TileGrid& grid, SetupBatch& batch) : grid_(grid), batch_(batch) {}
+    /// `early`: leave out what lies outside of the view before it is clipped.
+    ClippedSetup(const TileGrid& grid, bool early, FrameCounts& counts) : grid_(grid), early_(early), counts_(counts) {}
 
-    /// Decides the triangle's one fate and counts it; appends what is left of it to the batch.
-    void add(const std::array<ScreenVertex, 3>& corners, const TriangleOrigin& origin);
+    /// Decides the fate of a triangle of finite vertices and counts it; appends the pieces that are left of it. `planes`: those of the
+    /// clip planes that some vertex is outside of.
+    void add(const std::array<ScreenVertex, 3>& corners, uint32_t planes, const TriangleOrigin& origin);
+
+    /// Pieces, of all triangles added; their planes are to be linked once the vectors have stopped growing.
+    std::vector<SetupTriangle>& pieces() { return pieces_; }
+    std::vector<std::array<Plane, 3>>& planes() { return planes_; }
+    /// By piece: which of the planes are its own.
+    const std::vector<uint32_t>& plane_of_piece() const { return plane_of_piece_; }
 
   private:
     /// The counter that the triangle ends in.
@@ -60,18 +57,21 @@ class TriangleSetup {
         bool odd;  ///< the order turns the other way than the corners do
     };
 
-    Fate classify(const std::array<ScreenVertex, 3>& corners, const TriangleOrigin& origin);
-    Fate add_polygon(std::span<const ScreenVertex> polygon, const Ordered& ordered, const TriangleOrigin& origin, bool whole);
-    void add_whole(const SnappedPolygon& snapped, const Ordered& ordered, const SetupTriangle& common);
+    Fate classify(const std::array<ScreenVertex, 3>& corners, uint32_t planes, const TriangleOrigin& origin);
+    Fate add_polygon(std::span<const ScreenVertex> polygon, const Ordered& ordered, const TriangleOrigin& origin);
     void add_pieces(std::span<const ScreenVertex> polygon, const SnappedPolygon& snapped, const HomogeneousPlanes& planes,
                     const SetupTriangle& common);
-    void link_planes(size_t first_triangle, const HomogeneousPlanes& planes, const Ordered& ordered);
-    bool reaches_a_tile(size_t first_triangle) const;
+    void keep_planes(const HomogeneousPlanes& planes, const Ordered& ordered);
+    bool reaches_a_tile(size_t first_piece) const;
     static Ordered order(const std::array<ScreenVertex, 3>& corners);
     bool outside_samples(const std::array<ScreenVertex, 3>& corners) const;
 
     const TileGrid& grid_;
-    SetupBatch& batch_;
+    bool early_;
+    FrameCounts& counts_;
+    std::vector<SetupTriangle> pieces_;
+    std::vector<std::array<Plane, 3>> planes_;
+    std::vector<uint32_t> plane_of_piece_;
 };
 
 }  // namespace rawtexel::raster

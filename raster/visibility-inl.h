@@ -8,6 +8,7 @@
 
 #include "raster/coverage-inl.h"
 #include "raster/edge.h"
+#include "raster/small_triangle-inl.h"
 #include "raster/visibility.h"
 
 #include <hwy/cache_control.h>
@@ -16,7 +17,9 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <vector>
 
 HWY_BEFORE_NAMESPACE();
 namespace rawtexel::raster {
@@ -36,28 +39,160 @@ HWY_INLINE V clamp_depth(D d, const SetupTriangle& triangle, V depth) {
     return hn::Min(hn::Max(depth, hn::Set(d, triangle.depth_min)), hn::Set(d, triangle.depth_max));
 }
 
+inline constexpr size_t kBoxPadding = kBlockWidth;  // so that vectors may read past the last triangle
+
+/// Of the blocks that the frame's border crosses, the pixels inside.
+inline void count_inside(const TilePass& pass, TileVisibility& out) {
+    for (int row = 0; row < pass.size; row += kHiZWidth) {
+        for (int column = 0; column < pass.size; column += kHiZWidth) {
+            const int columns = std::clamp(pass.width - column, 0, kHiZWidth), rows = std::clamp(pass.height - row, 0, kHiZWidth);
+            out.block[size_t(row / kHiZWidth) * size_t(pass.size / kHiZWidth) + size_t(column / kHiZWidth)].open = int16_t(columns * rows);
+        }
+    }
+}
+
 /// Draws triangles into one tile.
 class TileRasterizer {
   public:
     TileRasterizer(const Frame& frame, const TilePass& pass, TileVisibility& out)
-        : frame_(frame), pass_(pass), out_(out), blocks_x_(pass.size / kHiZWidth) {}
+        : frame_(frame), pass_(pass), out_(out), blocks_x_(pass.size / kHiZWidth), hiz_(frame.options().skips.hiz) {}
 
     template <class Coverage>
-    void draw(uint32_t setup_index, Coverage& coverage) {
-        const SetupTriangle& triangle = frame_.triangle(setup_index);
-        const SampleBox box = bounds_of(triangle);
-        const SampleBox& reach = pass_.offset_box;
-        // Pixels, counted from the tile's corner, with a sample point inside the triangle's box.
-        const int first_x = std::max(first_pixel(box.x_min - reach.x_max) - pass_.x, 0);
-        const int first_y = std::max(first_pixel(box.y_min - reach.y_max) - pass_.y, 0);
-        const int last_x = std::min(last_pixel(box.x_max - reach.x_min) - pass_.x, pass_.width - 1);
-        const int last_y = std::min(last_pixel(box.y_max - reach.y_min) - pass_.y, pass_.height - 1);
-        if (first_x > last_x || first_y > last_y) return;
+    void draw(const TileVisibility::Hit& hit, Coverage& coverage) {
+        constexpr bool is_told = requires(const CandidateWave& opaque) { coverage.opaque(opaque); };
+        const SetupTriangle& triangle = frame_.triangle(hit.setup_index);
+        if (SmallTriangle::is_small(triangle)) {
+            if (is_told || triangle.coverage != CoverageClass::Opaque || hit.last_x - hit.first_x >= kBlockWidth) {
+                draw_small(triangle, hit.setup_index, hit, coverage);
+            } else if (hit.first_x == hit.last_x && hit.first_y == hit.last_y) {
+                draw_point(triangle, hit);
+            } else {
+                draw_narrow(triangle, hit);
+            }
+        } else {
+            draw_large(triangle, hit.setup_index, hit, coverage);
+        }
+    }
+
+  private:
+    /// Depth along the rows of a wave, in vectors.
+    struct DepthLanes {
+        HWY_INLINE DepthLanes(const SetupTriangle& triangle_, const TilePass& pass_, double origin_x_)
+            : triangle(triangle_), pass(pass_), origin_x(origin_x_) {
+            const RowDoubles d;
+            if (pass.samples.per_pixel != nullptr) return;
+            for (size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) {
+                const auto x = hn::Add(hn::Iota(d, origin_x + double(i)), hn::Set(d, pass.frame_x));
+                hn::Store(hn::Mul(hn::Set(d, triangle.depth_dx), x), d, along_x + i);
+            }
+        }
+
+        /// Of the pixels `i` and on of a row; `pixel`: the tile's entry of its first one. As depth_at() has it.
+        HWY_INLINE hn::Vec<DepthFloats> at(size_t i, double origin_y, size_t pixel) const {
+            const RowDoubles d;
+            const DepthFloats df;
+            const DepthInts di;
+            if (pass.samples.per_pixel == nullptr) {
+                const auto along = hn::Add(hn::Load(d, along_x + i), hn::Set(d, triangle.depth_dy * (origin_y + pass.frame_y)));
+                return clamp_depth(df, triangle, hn::DemoteTo(df, hn::Add(hn::Set(d, triangle.depth_at_origin), along)));
+            }
+            const auto to_pixels = hn::Set(d, 1.0 / kSampleOne);
+            hn::Vec<DepthInts> offset_x, offset_y;
+            hn::LoadInterleaved2(di, &pass.samples.per_pixel[pixel + i].x, offset_x, offset_y);
+            const auto x = hn::Add(hn::Iota(d, origin_x + double(i)), hn::Mul(hn::PromoteTo(d, offset_x), to_pixels));
+            const auto y = hn::Add(hn::Set(d, origin_y), hn::Mul(hn::PromoteTo(d, offset_y), to_pixels));
+            return clamp_depth(df, triangle, hn::DemoteTo(df, depth_at(d, triangle, x, y)));
+        }
+
+        const SetupTriangle& triangle;
+        const TilePass& pass;
+        double origin_x;
+        alignas(64) double along_x[kBlockWidth];
+    };
+
+    struct WaveDepth {
+        alignas(64) float depth[kBlockLanes];
+        uint32_t nearer = 0, equal = 0;
+    };
+
+    /// Opaque and small, with one pixel to look at: what draw_small comes to.
+    HWY_INLINE void draw_point(const SetupTriangle& triangle, const TileVisibility::Hit& hit) {
+        const int column = hit.first_x, row = hit.first_y;
+        const size_t at = entry(column, row);
+        const SampleOffset offset = pass_.samples.per_pixel == nullptr ? pass_.samples.frame : pass_.samples.per_pixel[at];
+        if (!SmallTriangle::covers(triangle, (pass_.x + column) * kSampleOne + offset.x, (pass_.y + row) * kSampleOne + offset.y)) return;
+        const hn::CappedTag<double, 1> d;
+        const hn::Rebind<float, decltype(d)> df;
+        const auto x = hn::Set(d, from_origin_x(triangle, column) + double(offset.x) / kSampleOne);
+        const auto y = hn::Set(d, from_origin_y(triangle, row) + double(offset.y) / kSampleOne);
+        const float depth = hn::GetLane(clamp_depth(df, triangle, hn::DemoteTo(df, depth_at(d, triangle, x, y))));
+        const float so_far = out_.depth[at];
+        if (depth < so_far || (depth == so_far && !precedes(triangle, hit.setup_index, out_.triangle[at]))) return;
+        out_.depth[at] = depth;
+        out_.triangle[at] = hit.setup_index;
+        cover(column & -kBlockWidth, row, 1u << column % kBlockWidth);
+        note_block(block(column, row), triangle.depth_max);
+    }
+
+    /// Opaque, small and no wider than eight pixels, which two rows of lanes hold.
+    HWY_INLINE void draw_narrow(const SetupTriangle& triangle, const TileVisibility::Hit& hit) {
+        const size_t blocks[4] = {block(hit.first_x, hit.first_y), block(hit.last_x, hit.first_y), block(hit.first_x, hit.last_y),
+                                  block(hit.last_x, hit.last_y)};
+        if (hiz_ && hit.last_y - hit.first_y <= kHiZWidth && hides_all(blocks, triangle.depth_max)) {
+            out_.hiz_rejected += uint64_t(1 + (blocks[0] != blocks[1])) * uint64_t(1 + (blocks[0] != blocks[2]));
+            return;
+        }
+        const SmallTriangle covers(triangle, pass_);
+        for (int column = hit.first_x & -kBlockWidth; column <= hit.last_x; column += kBlockWidth) {
+            // Of those in the tile's rows, the pixels inside of the frame.
+            const uint32_t inside = (2u << std::min(hit.last_x - column, kBlockWidth - 1)) - 1;
+            const DepthLanes depth_of(triangle, pass_, from_origin_x(triangle, column));
+            covers.for_each_row(column, hit.first_y, hit.last_y, [&](int row, uint32_t covered) HWY_ATTR {
+                if ((covered & inside) == 0) return;
+                const uint32_t written = draw_row(triangle, hit.setup_index, entry(column, row), row, covered & inside, depth_of);
+                if (written == 0) return;
+                cover(column, row, written);
+                note_block(block(column, row), triangle.depth_max);
+            });
+        }
+    }
+
+    HWY_INLINE bool hides_all(const size_t (&blocks)[4], float depth_max) {
+        const auto hides = [&](size_t b) HWY_ATTR {
+            const TileVisibility::Block& held = out_.block[b];
+            return held.open == 0 && depth_max < held.nearest &&
+                   depth_max < farthest_in_block(int(b) % blocks_x_ * kHiZWidth, int(b) / blocks_x_ * kHiZWidth);
+        };
+        return hides(blocks[0]) && (blocks[3] == blocks[0] || (hides(blocks[1]) && hides(blocks[2]) && hides(blocks[3])));
+    }
+
+    /// Wave by wave: too few pixels for tests of whole blocks to pay.
+    template <class Coverage>
+    HWY_INLINE void draw_small(const SetupTriangle& triangle, uint32_t setup_index, const TileVisibility::Hit& pixels, Coverage& coverage) {
+        const SmallTriangle covered(triangle, pass_);
+        for (int row = pixels.first_y & -kBlockHeight; row <= pixels.last_y; row += kBlockHeight) {
+            const int begin = std::max(pixels.first_y - row, 0), end = std::min(pixels.last_y - row + 1, kBlockHeight);
+            for (int column = pixels.first_x & -kBlockWidth; column <= pixels.last_x; column += kBlockWidth) {
+                if (hiz_ && triangle.depth_max < farthest_worth_knowing(triangle.depth_max, column, row)) {
+                    // Counted once a block: for its upper half, or its lower one where the triangle does not reach the upper.
+                    out_.hiz_rejected += row % kHiZWidth == 0 || row == (pixels.first_y & -kBlockHeight);
+                    continue;
+                }
+                uint32_t mask = covered.wave(column, row, begin, end);
+                if (!pass_.whole()) mask &= pass_.lanes_inside(column, row);
+                if (mask != 0) draw_wave(triangle, setup_index, column, row, mask, coverage);
+            }
+        }
+    }
+
+    template <class Coverage>
+    HWY_NOINLINE void draw_large(const SetupTriangle& triangle, uint32_t setup_index, const TileVisibility::Hit& pixels,
+                                 Coverage& coverage) {
         TriangleCoverage covered(triangle, pass_);
-        for (int row = first_y & -kHiZWidth; row <= last_y; row += kHiZWidth) {
-            for (int column = first_x & -kHiZWidth; column <= last_x; column += kHiZWidth) {
+        for (int row = pixels.first_y & -kHiZWidth; row <= pixels.last_y; row += kHiZWidth) {
+            for (int column = pixels.first_x & -kHiZWidth; column <= pixels.last_x; column += kHiZWidth) {
                 if (!covered.enter_block(column, row)) continue;
-                if (hidden(triangle, column, row)) {
+                if (hiz_ && hidden(triangle, column, row)) {
                     ++out_.hiz_rejected;
                     continue;
                 }
@@ -68,15 +203,6 @@ class TileRasterizer {
             }
         }
     }
-
-  private:
-    struct WaveDepth {
-        alignas(64) float depth[kBlockLanes];
-        uint32_t nearer = 0, equal = 0;
-    };
-
-    static int first_pixel(int64_t sample) { return int((sample + kSampleOne - 1) >> kSampleBits); }
-    static int last_pixel(int64_t sample) { return int(sample >> kSampleBits); }
 
     size_t entry(int column, int row) const { return size_t(row) * size_t(pass_.size) + size_t(column); }
     size_t block(int column, int row) const { return size_t(row / kHiZWidth) * size_t(blocks_x_) + size_t(column / kHiZWidth); }
@@ -104,17 +230,38 @@ class TileRasterizer {
         return hn::GetLane(clamp_depth(df, triangle, hn::DemoteTo(df, nearest))) < farthest;
     }
 
-    float farthest_in_block(int column, int row) {
-        const size_t index = block(column, row);
-        if (out_.block_stale[index]) {
-            out_.block_stale[index] = 0;
-            out_.block_farthest[index] =
-                least_depth(column, row, std::min(kHiZWidth, pass_.width - column), std::min(kHiZWidth, pass_.height - row));
-        }
-        return out_.block_farthest[index];
+    /// Notes that eight pixels of a row from (column, row) on hold opaque geometry.
+    HWY_INLINE void cover(int column, int row, uint32_t pixels) {
+        uint8_t& covered = out_.covered[entry(column, row) / 8];
+        TileVisibility::Block& noted = out_.block[block(column, row)];
+        noted.open = int16_t(noted.open - std::popcount(pixels & ~uint32_t{covered}));
+        covered |= uint8_t(pixels);
+    }
+    HWY_INLINE void note_block(size_t which, float depth_max) {
+        TileVisibility::Block& noted = out_.block[which];
+        noted.stale = true;
+        noted.nearest = std::max(noted.nearest, depth_max);
     }
 
-    float least_depth(int column, int row, int columns, int rows) const {
+    /// Depth of the block's farthest pixel; 0 as long as some pixel shows nothing.
+    float farthest_in_block(int column, int row) {
+        TileVisibility::Block& block_state = out_.block[block(column, row)];
+        if (block_state.stale && block_state.open == 0) {
+            block_state.stale = false;
+            block_state.farthest = least_depth(column & -kHiZWidth, row & -kHiZWidth);
+        }
+        return block_state.farthest;
+    }
+
+    /// The same or less: what is nearer than all that the block holds need not know.
+    HWY_INLINE float farthest_worth_knowing(float depth_max, int column, int row) {
+        const TileVisibility::Block& block_state = out_.block[block(column, row)];
+        return depth_max < block_state.nearest ? farthest_in_block(column, row) : 0.0f;
+    }
+
+    /// Over the block's pixels inside the frame.
+    float least_depth(int column, int row) const {
+        const int columns = std::min(kHiZWidth, pass_.width - column), rows = std::min(kHiZWidth, pass_.height - row);
         const hn::CappedTag<float, kHiZWidth> d;
         float least = 1.0f;
         auto least_by_column = hn::Set(d, least);
@@ -131,6 +278,62 @@ class TileRasterizer {
 
     template <class Coverage>
     HWY_INLINE void draw_wave(const SetupTriangle& triangle, uint32_t setup_index, int column, int row, uint32_t mask, Coverage& coverage) {
+        constexpr bool is_told = requires(const CandidateWave& opaque) { coverage.opaque(opaque); };
+        if (!is_told && triangle.coverage == CoverageClass::Opaque) {
+            draw_opaque(triangle, setup_index, column, row, mask);
+        } else {
+            draw_candidates(triangle, setup_index, column, row, mask, coverage);
+        }
+    }
+
+    /// What is written makes the block look for its farthest pixel again.
+    HWY_INLINE void note_opaque(const SetupTriangle& triangle, int column, int row, uint32_t lanes) {
+        for (int r = 0; r < kBlockHeight; ++r) cover(column, row + r, lanes >> (r * kBlockWidth) & 0xFFu);
+        note_block(block(column, row), triangle.depth_max);
+    }
+
+    /// Compares and writes eight pixels from entry `at` on, where nobody is to be asked; returns those written.
+    HWY_INLINE uint32_t draw_row(const SetupTriangle& triangle, uint32_t setup_index, size_t at, int row, uint32_t pixels,
+                                 const DepthLanes& depth_of) {
+        const RowDoubles d;
+        const DepthFloats df;
+        const hn::Rebind<uint32_t, RowDoubles> du;
+        const double origin_y = from_origin_y(triangle, row);
+        uint32_t written = 0;
+        for (size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) {
+            const uint32_t lanes = pixels >> i & ((1u << hn::Lanes(d)) - 1);
+            if (lanes == 0) continue;
+            const auto depth = depth_of.at(i, origin_y, at);
+            const auto so_far = hn::LoadU(df, out_.depth.data() + at + i);
+            uint32_t winners = lanes & bits_of(df, hn::Gt(depth, so_far));
+            for (uint32_t ties = lanes & bits_of(df, hn::Eq(depth, so_far)); ties != 0; ties &= ties - 1) {
+                const size_t lane = size_t(std::countr_zero(ties));
+                if (precedes(triangle, setup_index, out_.triangle[at + i + lane])) winners |= 1u << lane;
+            }
+            if (winners == 0) continue;
+            written |= winners << i;
+            // Whole vectors: what is read again at once comes from the store's queue only where none was masked.
+            hn::StoreU(hn::IfThenElse(mask_of(df, winners), depth, so_far), df, out_.depth.data() + at + i);
+            const auto other = hn::LoadU(du, out_.triangle.data() + at + i);
+            hn::StoreU(hn::IfThenElse(mask_of(du, winners), hn::Set(du, setup_index), other), du, out_.triangle.data() + at + i);
+        }
+        return written;
+    }
+
+    HWY_INLINE void draw_opaque(const SetupTriangle& triangle, uint32_t setup_index, int column, int row, uint32_t mask) {
+        const DepthLanes depth_of(triangle, pass_, from_origin_x(triangle, column));
+        uint32_t written = 0;
+        for (int r = 0; r < kBlockHeight; ++r) {
+            const uint32_t pixels = mask >> (r * kBlockWidth) & 0xFFu;
+            if (pixels != 0)
+                written |= draw_row(triangle, setup_index, entry(column, row + r), row + r, pixels, depth_of) << (r * kBlockWidth);
+        }
+        if (written != 0) note_opaque(triangle, column, row, written);
+    }
+
+    template <class Coverage>
+    HWY_NOINLINE void draw_candidates(const SetupTriangle& triangle, uint32_t setup_index, int column, int row, uint32_t mask,
+                                      Coverage& coverage) {
         WaveDepth wave;
         measure_depth(triangle, column, row, mask, wave);
         uint32_t winners = mask & wave.nearer;
@@ -140,18 +343,14 @@ class TileRasterizer {
             if (precedes(triangle, setup_index, other)) winners |= 1u << lane;
         }
         if (winners == 0) return;
-        const auto ask = [&](auto&& who) {
-            SampleOffset storage[kBlockLanes];
-            const SampleOffset* const offsets = pass_.offsets(column, row, storage);
-            return who(CandidateWave{&triangle, setup_index, pass_.x + column, pass_.y + row, winners, offsets, wave.depth});
-        };
+        SampleOffset storage[kBlockLanes];
+        const CandidateWave candidate{&triangle, setup_index, pass_.x + column, pass_.y + row, winners, pass_.offsets(column, row, storage),
+                                      wave.depth};
         if (triangle.coverage != CoverageClass::Opaque) {
-            winners &= ask(coverage);
+            winners &= coverage(candidate);
         } else {
-            out_.block_stale[block(column, row)] = 1;
-            if constexpr (requires(const CandidateWave& opaque) { coverage.opaque(opaque); }) {
-                ask([&](const CandidateWave& candidate) { coverage.opaque(candidate); });
-            }
+            note_opaque(triangle, column, row, winners);
+            if constexpr (requires { coverage.opaque(candidate); }) coverage.opaque(candidate);
         }
         write(setup_index, column, row, winners, wave);
     }
@@ -167,25 +366,13 @@ class TileRasterizer {
     HWY_INLINE void measure_depth(const SetupTriangle& triangle, int column, int row, uint32_t mask, WaveDepth& wave) const {
         const RowDoubles d;
         const DepthFloats df;
-        const DepthInts di;
-        const auto to_pixels = hn::Set(d, 1.0 / kSampleOne);
-        auto offset_x = hn::Set(d, double(pass_.samples.frame.x) / kSampleOne);
-        auto offset_y = hn::Set(d, double(pass_.samples.frame.y) / kSampleOne);
-        const double origin_x = from_origin_x(triangle, column);
+        const DepthLanes depth_of(triangle, pass_, from_origin_x(triangle, column));
         for (int r = 0; r < kBlockHeight; ++r) {
             if ((mask >> (r * kBlockWidth) & 0xFFu) == 0) continue;
-            const float* const stored = out_.depth.data() + entry(column, row + r);
-            const auto origin_y = hn::Set(d, from_origin_y(triangle, row + r));
+            const size_t at = entry(column, row + r);
+            const double origin_y = from_origin_y(triangle, row + r);
             for (size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) {
-                if (pass_.samples.per_pixel != nullptr) {
-                    hn::Vec<DepthInts> x, y;
-                    hn::LoadInterleaved2(di, &pass_.samples.per_pixel[entry(column, row + r) + i].x, x, y);
-                    offset_x = hn::Mul(hn::PromoteTo(d, x), to_pixels);
-                    offset_y = hn::Mul(hn::PromoteTo(d, y), to_pixels);
-                }
-                const auto x = hn::Add(hn::Iota(d, origin_x + double(i)), offset_x), y = hn::Add(origin_y, offset_y);
-                const auto depth = clamp_depth(df, triangle, hn::DemoteTo(df, depth_at(d, triangle, x, y)));
-                const auto so_far = hn::LoadU(df, stored + i);
+                const auto depth = depth_of.at(i, origin_y, at), so_far = hn::LoadU(df, out_.depth.data() + at + i);
                 const size_t lane = size_t(r) * kBlockWidth + i;
                 hn::Store(depth, df, wave.depth + lane);
                 wave.nearer |= bits_of(df, hn::Gt(depth, so_far)) << lane;
@@ -213,7 +400,63 @@ class TileRasterizer {
     const TilePass& pass_;
     TileVisibility& out_;
     int blocks_x_;
+    bool hiz_;
 };
+
+/// The boxes of the bin's triangles, in 1/512 pixel from the tile's upper left corner, by coordinate: the same for all samples.
+inline void find_boxes(const Frame& frame, std::span<const uint32_t> bin, const TilePass& pass, TileVisibility& out) {
+    constexpr size_t kAhead = 24;  // triangles come from memory, and a bin's may lie far apart
+    for (std::vector<int32_t>* side : {&out.box.x_min, &out.box.x_max, &out.box.y_min, &out.box.y_max})
+        side->resize(bin.size() + kBoxPadding);
+    for (size_t i = 0; i < bin.size(); ++i) {
+        if (i + kAhead < bin.size()) hwy::Prefetch(&frame.triangle(bin[i + kAhead]));
+        const SetupTriangle& t = frame.triangle(bin[i]);
+        out.box.x_min[i] = 2 * std::min({t.x[0], t.x[1], t.x[2]}) - pass.x * kSampleOne;
+        out.box.x_max[i] = 2 * std::max({t.x[0], t.x[1], t.x[2]}) - pass.x * kSampleOne;
+        out.box.y_min[i] = 2 * std::min({t.y[0], t.y[1], t.y[2]}) - pass.y * kSampleOne;
+        out.box.y_max[i] = 2 * std::max({t.y[0], t.y[1], t.y[2]}) - pass.y * kSampleOne;
+    }
+    for (size_t i = bin.size(); i < bin.size() + kBoxPadding; ++i) {
+        out.box.x_min[i] = out.box.y_min[i] = std::numeric_limits<int32_t>::max() / 2;
+        out.box.x_max[i] = out.box.y_max[i] = std::numeric_limits<int32_t>::min() / 2;
+    }
+    out.box.frame = frame.serial();
+    out.box.tile_x = pass.x / pass.size;
+    out.box.tile_y = pass.y / pass.size;
+}
+
+/// What of the bin has a sample point of this pass inside its box: few triangles of a pixel's size do.
+inline void find_hits(std::span<const uint32_t> bin, const TilePass& pass, TileVisibility& out) {
+    const RowInts d;
+    const auto set = [&](int64_t v) HWY_ATTR { return hn::Set(d, int32_t(v)); };
+    const auto zero = hn::Zero(d), last_column = set(pass.width - 1), last_row = set(pass.height - 1);
+    alignas(64) int32_t first_x[kBlockWidth], first_y[kBlockWidth], last_x[kBlockWidth], last_y[kBlockWidth];
+    out.hits.resize(bin.size());
+    size_t count = 0;
+    for (size_t i = 0; i < bin.size(); i += hn::Lanes(d)) {
+        const auto first = [&](const std::vector<int32_t>& low, int64_t offset) HWY_ATTR {
+            const auto pixel = hn::ShiftRight<kSampleBits>(hn::Add(hn::LoadU(d, low.data() + i), set(kSampleOne - 1 - offset)));
+            return hn::Max(pixel, zero);
+        };
+        const auto last = [&](const std::vector<int32_t>& high, int64_t offset)
+                              HWY_ATTR { return hn::ShiftRight<kSampleBits>(hn::Sub(hn::LoadU(d, high.data() + i), set(offset))); };
+        const auto x0 = first(out.box.x_min, pass.offset_box.x_max), y0 = first(out.box.y_min, pass.offset_box.y_max);
+        const auto x1 = hn::Min(last(out.box.x_max, pass.offset_box.x_min), last_column);
+        const auto y1 = hn::Min(last(out.box.y_max, pass.offset_box.y_min), last_row);
+        uint32_t hit = bits_of(d, hn::Not(hn::Or(hn::Gt(x0, x1), hn::Gt(y0, y1))));
+        if (hit == 0) continue;
+        hn::Store(x0, d, first_x);
+        hn::Store(y0, d, first_y);
+        hn::Store(x1, d, last_x);
+        hn::Store(y1, d, last_y);
+        for (; hit != 0; hit &= hit - 1) {
+            const size_t lane = size_t(std::countr_zero(hit));
+            out.hits[count++] = {bin[i + lane], int16_t(first_x[lane]), int16_t(first_y[lane]), int16_t(last_x[lane]),
+                                 int16_t(last_y[lane])};
+        }
+    }
+    out.hits.resize(count);
+}
 
 template <class Coverage>
 void tile_visibility(const Frame& frame, int tile_x, int tile_y, const TileSamples& samples, Coverage&& coverage, TileVisibility& out) {
@@ -221,12 +464,15 @@ void tile_visibility(const Frame& frame, int tile_x, int tile_y, const TileSampl
     const std::span<const uint32_t> bin = frame.bin(tile_x, tile_y);
     if (bin.empty()) return;
     const TilePass pass(frame, tile_x, tile_y, samples);
+    if (out.box.frame != frame.serial() || out.box.tile_x != tile_x || out.box.tile_y != tile_y) find_boxes(frame, bin, pass, out);
+    if (!pass.whole()) count_inside(pass, out);
     TileRasterizer rasterizer(frame, pass, out);
-    // The triangles of a bin may lie far apart in memory: far enough ahead, and not too far.
-    constexpr size_t kAhead = 8;
-    for (size_t i = 0; i < bin.size(); ++i) {
-        if (i + kAhead < bin.size()) hwy::Prefetch(&frame.triangle(bin[i + kAhead]));
-        rasterizer.draw(bin[i], coverage);
+
+    find_hits(bin, pass, out);
+    constexpr size_t kAhead = 4;  // the triangles of a bin may lie far apart in memory: far enough ahead, and not too far
+    for (size_t i = 0; i < out.hits.size(); ++i) {
+        if (i + kAhead < out.hits.size()) hwy::Prefetch(&frame.triangle(out.hits[i + kAhead].setup_index));
+        rasterizer.draw(out.hits[i], coverage);
     }
 }
 

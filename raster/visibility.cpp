@@ -34,8 +34,8 @@ void TileVisibility::reset(int size) {
     const size_t pixels = size_t(size) * size_t(size), blocks = pixels / 64;
     triangle.assign(pixels, kNoTriangle);
     depth.assign(pixels, 0.0f);
-    block_farthest.assign(blocks, 0.0f);
-    block_stale.assign(blocks, 0);
+    covered.assign(pixels / 8, 0);
+    block.assign(blocks, {});
     hiz_rejected = 0;
 }
 

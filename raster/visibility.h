@@ -22,9 +22,30 @@ struct TileVisibility {
     std::vector<float> depth;        ///< 1 near .. 0 far; 0 where there is no triangle
     uint64_t hiz_rejected = 0;       ///< 8x8 blocks of triangles skipped because what is drawn before hides all of them
 
-    /// Of every 8x8 block, row by row: depth of its farthest pixel as of the last look, and whether opaque geometry was written since.
-    std::vector<float> block_farthest;
-    std::vector<uint8_t> block_stale;
+    /// Pixels that hold opaque geometry, eight to a byte, row by row.
+    std::vector<uint8_t> covered;
+    /// Of every 8x8 block, row by row; what opaque geometry alone has written.
+    struct Block {
+        float farthest = 0.0f;  ///< depth of the farthest pixel as of the last look
+        float nearest = 0.0f;   ///< no pixel is nearer
+        int16_t open = 64;      ///< pixels inside of the frame that hold none
+        bool stale = false;     ///< written since that look
+    };
+    std::vector<Block> block;
+
+    /// A triangle of the bin, and the tile's pixels with a sample point inside its box, ends included.
+    struct Hit {
+        uint32_t setup_index;
+        int16_t first_x, first_y, last_x, last_y;
+    };
+    std::vector<Hit> hits;
+
+    /// Boxes of the triangles of the bin drawn last, kept for its other samples.
+    struct Boxes {
+        uint64_t frame = 0;  ///< Frame::serial()
+        int tile_x = -1, tile_y = -1;
+        std::vector<int32_t> x_min, x_max, y_min, y_max;
+    } box;
 
     /// Nothing visible; keeps its memory.
     void reset(int size);

@@ -97,13 +97,14 @@ HWY_INLINE void interpolate_colors(const Mesh& mesh, const Corners& corners, con
     }
 }
 
-/// All that the draw's material reads, on the planes of a triplanar one. `out.facing` is the caller's.
+/// All that the draw's material reads, on the planes of a triplanar one; without `shapes` no position and normals. `out.facing` is the
+/// caller's.
 template <class Corners>
-HWY_INLINE void interpolate_fragment(const DrawState& draw, const Corners& corners, const raster::BarycentricWave& weights,
+HWY_INLINE void interpolate_fragment(const DrawState& draw, const Corners& corners, const raster::BarycentricWave& weights, bool shapes,
                                      FragmentWave& out, const PlaneLanes* planes = nullptr) {
     const MaterialState& material = *draw.material;
     const Mesh& mesh = *draw.mesh;
-    interpolate_geometry(draw, corners, weights, out);
+    if (shapes) interpolate_geometry(draw, corners, weights, out);
     if (!mesh.colors.empty()) interpolate_colors(mesh, corners, weights, out.color);
     interpolate_map_coordinates(material, mesh, corners, weights, planes, out.coordinates);
     const MapState& normal_map = material.maps[kNormal];

@@ -93,11 +93,12 @@ HWY_INLINE void find_normals(const MaterialState& state, const FragmentWave& fra
     }
 }
 
-/// All of `out` but `view`, which is the caller's. An unlit material has a base colour and nothing else to shade.
-HWY_INLINE void find_surface(const DrawState& draw, const FragmentWave& fragment, const MapColors& maps, SurfaceWave& out) {
+/// All of `out` but `view`, which is the caller's. An unlit material has a base colour and nothing else to shade; `shapes`: its normals
+/// are asked for all the same.
+HWY_INLINE void find_surface(const DrawState& draw, const FragmentWave& fragment, const MapColors& maps, bool shapes, SurfaceWave& out) {
     const MaterialState& state = *draw.material;
     find_base_color(draw, fragment, maps.slot[kBaseColor], out);
-    find_normals(state, fragment, maps.slot[kNormal], out);
+    if (shapes) find_normals(state, fragment, maps.slot[kNormal], out);
     if (state.material->unlit) return;
     find_metallic_roughness(state, maps.slot[kMetallicRoughness], out);
     out.stretched = false;

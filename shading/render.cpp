@@ -2,12 +2,14 @@
 
 #include "shading/camera.h"
 #include "shading/draw_state.h"
+#include "shading/lookup_refusal.h"
 #include "shading/fetch_account.h"
 #include "shading/temporal_sums.h"
 #include "shading/tile.h"
 #include "shading/tile_range.h"
 #include "shading/tile_resolve.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <chrono>
@@ -28,6 +30,21 @@ PixelRect visible_pixels(const RenderOptions& options) {
     return {crop.x, crop.y, crop.x + crop.width, crop.y + crop.height};
 }
 
+/// The offsets of the frame's samples, where all pixels share them.
+std::optional<raster::OffsetRange> sample_reach(const RenderOptions& options) {
+    if (options.pixel_jitter == PixelJitter::Pixel) return std::nullopt;
+    const SequenceShift shift = sequence_shift(PixelJitter::Frame, 0, 0, options.seed);
+    const auto offset = [&](int k) {
+        return sample_offset(options.pixel_filter, PixelJitter::Frame, options.first_sample + uint32_t(k), shift);
+    };
+    raster::OffsetRange reach{offset(0).x, offset(0).x, offset(0).y, offset(0).y};
+    for (int k = 1; k < options.spp; ++k) {
+        const raster::SampleOffset at = offset(k);
+        reach = {std::min(reach.x_min, at.x), std::max(reach.x_max, at.x), std::min(reach.y_min, at.y), std::max(reach.y_max, at.y)};
+    }
+    return reach;
+}
+
 raster::Frame make_frame(const DrawStates& states, const RenderOptions& options, const PixelRect& visible, int tile_size,
                          Executor& executor) {
     const float aspect = float(options.width) / float(options.height);
@@ -41,6 +58,14 @@ raster::Frame make_frame(const DrawStates& states, const RenderOptions& options,
         .crop_height = visible.y1 - visible.y0,
         .tile_size = tile_size,
         .filter_radius = filter_radius(options.pixel_filter),
+        .reach = sample_reach(options),
+        // Who counts overdraw counts it in the order of the scene.
+        .scene_order = options.fetches.model != FetchModel::Visible,
+        .skips = {.clusters = options.skips.clusters,
+                  .frustum = options.skips.frustum,
+                  .backface = options.skips.backface,
+                  .occlusion = options.skips.occlusion,
+                  .hiz = options.skips.hiz},
     };
     return raster::Frame(frame_options, draws, parallel_for_of(executor));
 }
@@ -163,6 +188,7 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
         .texture_jitter = options.filtering.texture_jitter,
         .noise = options.filtering.noise,
         .fetch_model = fetches.model,
+        .skip_empty_tiles = options.skips.empty_tiles,
     };
     std::optional<FetchAccount> account;
     if (fetches.counts() && !options.listener) account.emplace(scene, fetches, visible, tile_size, options.width);

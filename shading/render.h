@@ -14,6 +14,7 @@
 #include "shading/lookup_listener.h"
 #include "shading/pixel_sampling.h"
 #include "shading/scene.h"
+#include "shading/skips.h"
 #include "texunit/sampler.h"
 
 #include <functional>
@@ -58,6 +59,7 @@ struct RenderOptions {
     LookupListener* listener = nullptr;
     FragmentListener* fragment_listener = nullptr;  ///< watches every fragment; one thread's executor is wanted
     int tile_size = 64;                             ///< 32, 64 or 128
+    Skips skips;
 };
 
 struct RenderTimes {

@@ -1,6 +1,7 @@
 // The scene as data: meshes, materials, textures, lights, cameras. Loading it is another room's work.
 #pragma once
 
+#include "raster/mesh_clusters.h"
 #include "shading/camera_animation.h"
 #include "shading/lookup_policy.h"
 #include "texunit/containers.h"
@@ -31,6 +32,8 @@ struct Mesh {
     std::vector<glm::vec4> colors;             ///< linear, multiplied with the base colour
     std::vector<uint32_t> indices;             ///< 3 per triangle
     uint32_t material = 0;
+    /// Of these positions and indices (cluster_meshes); null: made anew for every frame.
+    std::shared_ptr<const raster::MeshClusters> clusters = nullptr;
 };
 
 struct Instance {

@@ -114,6 +114,11 @@ class TileRenderer {
     }
 
     void find_visible(uint32_t sample) {
+        if (inputs_.skip_empty_tiles && frame_.bin(tile_x_, tile_y_).empty()) {
+            if (sample == inputs_.first_sample) scratch_.visibility.reset(tile_size_);
+            scratch_.candidates.clear();
+            return;
+        }
         const bool per_pixel = inputs_.pixel_jitter == PixelJitter::Pixel;
         const raster::TileSamples samples{frame_offset_, per_pixel ? scratch_.offsets.data() : nullptr};
         coverage_.begin_sample(sample);
@@ -284,16 +289,20 @@ class TileRenderer {
                 shade_branches(draw, seen);
                 continue;
             }
+            shapes_ = wants_shape(*draw.material->material);
             find_fragment(draw, seen);
             shade_pass(draw, seen.lanes);
         }
     }
 
+    /// Whether anything asks for a plain surface's position and normals.
+    bool wants_shape(const Material& material) const { return !material.unlit || inputs_.planes.hits >= 0 || watched(); }
+
     SampleBlock sample_block() const { return {frame_, wave_.setup_index, wave_.offset, wave_.x, wave_.y}; }
 
     void find_fragment(const DrawState& draw, const DrawLanes& seen, const PlaneLanes* planes = nullptr) {
         with_corners(frame_, *draw.mesh, wave_.setup_index, seen,
-                     [&](const auto& corners) HWY_ATTR { interpolate_fragment(draw, corners, weights_, fragment_, planes); });
+                     [&](const auto& corners) HWY_ATTR { interpolate_fragment(draw, corners, weights_, shapes_, fragment_, planes); });
         if (steps_.taken()) steps_.take(fragment_.coordinates, draw.material->coordinate_count);
     }
 
@@ -315,6 +324,7 @@ class TileRenderer {
     /// A material that blends planes or layers: a pass for each that a lane sees.
     HWY_NOINLINE void shade_branches(const DrawState& draw, const DrawLanes& seen) {
         const MaterialState& material = *draw.material;
+        shapes_ = true;
         with_corners(frame_, *draw.mesh, wave_.setup_index, seen,
                      [&](const auto& corners) HWY_ATTR { branches_.prepare(draw, corners, weights_, steps_); });
         branch_sum_.clear();
@@ -402,7 +412,7 @@ class TileRenderer {
             if (wants_lod) find_lod(material.maps[kBaseColor], pass, lod);
         }
         if (wants_lod) store_wave(lod, pass, first_sample_plane(inputs_.planes.lod, wave_.index));
-        find_surface(draw, fragment_, maps_, surface_);
+        find_surface(draw, fragment_, maps_, true, surface_);
         if (watched()) tell_shaded(draw, pass, {.lit = false});
     }
 
@@ -418,7 +428,7 @@ class TileRenderer {
 
     /// From the maps' values to radiance_.
     void shade_maps(const DrawState& draw, WaveMask lanes) {
-        find_surface(draw, fragment_, maps_, surface_);
+        find_surface(draw, fragment_, maps_, shapes_, surface_);
         light_surface(*draw.material->material, lanes);
     }
 
@@ -538,6 +548,7 @@ class TileRenderer {
     TextureSteps steps_;
     raster::SampleOffset frame_offset_;
     bool first_sample_ = false;
+    bool shapes_ = true;      ///< positions and normals are asked for
     bool in_branch_ = false;  ///< what is shaded is blended with other branches
     // Lanes that nobody asked for are computed along with their neighbours, so they hold numbers from the start.
     PixelWave wave_{};

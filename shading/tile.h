@@ -41,6 +41,7 @@ struct TileInputs {
     TextureJitter texture_jitter = TextureJitter::None;
     texunit::Noise noise = texunit::Noise::White;  ///< of the numbers of both
     FetchModel fetch_model = FetchModel::Visible;  ///< of what listeners hear
+    bool skip_empty_tiles = true;                  ///< look for nothing where the bin holds nothing
 };
 
 /// Counts and times of one worker.

@@ -1,6 +1,6 @@
 // Fetching the taps of narrow kernels, those included that lie beyond the edges of a border or of a cube map's face.
 #include "texunit/cube-inl.h"
-#include "texunit/fetch-inl.h"
+#include "texunit/texel_window-inl.h"
 
 #include <hwy/highway.h>
 
@@ -25,9 +25,6 @@ HWY_INLINE hn::Vec<IntTag> cube_texel_index(const LevelTable& table, hn::Vec<Int
     const auto row = row_offset_v<storage>(at.y, look_up_level(d, table.row_stride, level));
     return hn::Add(hn::Add(look_up_level(d, table.offset, level), slice), hn::Add(column_offset_v<storage>(at.x), row));
 }
-
-/// Whether texels are fields of a word, which a layout turns into numbers.
-constexpr bool is_packed(StorageClass storage) { return storage == StorageClass::Packed32 || storage == StorageClass::Packed64; }
 
 /// Only halves and floats can hold infinities; everything else takes the shorter form.
 template <StorageClass storage, class V>
@@ -135,6 +132,9 @@ HWY_NOINLINE void fetch_beyond_edges(Texture& texture, const std::array<float, 4
 /// Ensures and gathers the texels of `taps`. All lanes are read: inactive ones repeat an active one (fill_inactive).
 template <StorageClass storage, int W>
 HWY_NOINLINE void fetch(Texture& texture, const std::array<float, 4>& border, bool cube, const TapWave<W>& taps, TexelWave<W * W>& out) {
+    if constexpr (has_windows(storage) && W > 1) {
+        if (!taps.leaves && taps.slice == nullptr && fetch_window<storage>(texture, taps, out)) return;
+    }
     WaveInt index[W * W];
     tap_indices<storage>(texture.levels(), taps, index);
     if (taps.leaves) return fetch_beyond_edges<storage>(texture, border, cube, taps, index, out);

@@ -291,10 +291,27 @@ HWY_INLINE bool needs_no_level(const SamplerState& sampler, const WaveFloat* lod
     return sampler.mip == MipMode::None && sampler.magnify == sampler.minify && lod == nullptr;
 }
 
+/// Whether no lane is minified: its longer derivative is at most a texel long, before a bias that is none.
+HWY_INLINE bool magnifies_throughout(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at) {
+    if (sampler.lod_bias > 0.0f || sampler.min_lod > 0.0f || sampler.lod_rule == LodRule::Exact) return false;
+    const FloatTag d;
+    const auto width = hn::Set(d, float(table.width[0])), height = hn::Set(d, float(table.height[0])), one = hn::Set(d, 1.0f);
+    auto all = hn::FirstN(d, hn::Lanes(d));
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        const auto length2 = [&](const WaveFloat& du, const WaveFloat& dv) HWY_ATTR {
+            return squared_length(hn::Mul(hn::Load(d, du.lane + i), width), hn::Mul(hn::Load(d, dv.lane + i), height));
+        };
+        // What is not a number is not short.
+        all = hn::And(all, hn::And(length2(at.dudx, at.dvdx) <= one, length2(at.dudy, at.dvdy) <= one));
+    }
+    return hn::AllTrue(d, all);
+}
+
 /// Levels of an isotropic lookup.
 HWY_INLINE void choose_levels(const LevelTable& table, const SamplerState& sampler, const WaveCoordinates& at, LevelChoice& choice,
                               WaveFloat* lod) {
     if (needs_no_level(sampler, lod)) return choose_base_level(choice);
+    if (lod == nullptr && magnifies_throughout(table, sampler, at)) return choose_base_level(choice);
     select_levels(table, sampler, at, choice);
     if (lod != nullptr) *lod = choice.lod;
 }

@@ -137,81 +137,6 @@ HWY_NOINLINE void ensure_wide_cube(Texture& texture, const WideTaps& taps) {
     }
 }
 
-/// Whether all four channels are stored as unsigned fields that mean their quotients.
-HWY_INLINE bool is_plain(const TexelLayout& layout) {
-    bool plain = !layout.is_signed;
-    for (int c = 0; c < 4; ++c) plain = plain && layout.mask[c] != 0 && layout.table[c] == nullptr;
-    return plain;
-}
-
-/// Reads texels as the numbers they are stored as: fields of the packed classes are scaled only once they are summed. `plain` packed
-/// layouts are read without asking about each channel.
-template <StorageClass storage, bool plain>
-class TexelReader {
-  public:
-    using V = hn::Vec<FloatTag>;
-
-    explicit TexelReader(const Texture& texture) : layout_(texture.texel_layout()), texels_(texture.texels()) {}
-
-    HWY_INLINE void read(hn::Vec<IntTag> index, V (&texel)[4]) const {
-        const FloatTag d;
-        const hn::RebindToUnsigned<IntTag> du;
-        if constexpr (storage == StorageClass::Float4) {
-            const auto* const base = reinterpret_cast<const float*>(texels_);
-            const auto at = hn::ShiftLeft<2>(index);
-            for (int c = 0; c < 4; ++c) texel[c] = hn::GatherIndex(d, base + c, at);
-            return;
-        }
-        const auto* const base = reinterpret_cast<const uint32_t*>(texels_);
-        if constexpr (storage == StorageClass::Packed32) {
-            const auto word = hn::GatherIndex(du, base, index);
-            for (int c = 0; c < 4; ++c) texel[c] = field(c, layout_.shift[c], word);
-            return;
-        }
-        const auto at = hn::ShiftLeft<1>(index);
-        const auto low = hn::GatherIndex(du, base, at), high = hn::GatherIndex(du, base + 1, at);
-        if constexpr (storage == StorageClass::Half4) {
-            const auto lower = [&](auto word) HWY_ATTR { return half_to_float_v(hn::And(word, hn::Set(du, 0xFFFFu))); };
-            texel[0] = lower(low), texel[1] = half_to_float_v(hn::ShiftRight<16>(low));
-            texel[2] = lower(high), texel[3] = half_to_float_v(hn::ShiftRight<16>(high));
-        } else {
-            for (int c = 0; c < 4; ++c) {
-                texel[c] = layout_.shift[c] < 32 ? field(c, layout_.shift[c], low) : field(c, layout_.shift[c] - 32, high);
-            }
-        }
-    }
-
-    /// The value of a weighted sum of what was read.
-    HWY_INLINE V value(int c, V sum) const {
-        const FloatTag d;
-        if constexpr (!is_packed(storage)) return sum;
-        if (layout_.mask[c] == 0) return hn::Set(d, layout_.bias[c]);
-        if (layout_.table[c] != nullptr) return sum;
-        return hn::Add(hn::Mul(sum, hn::Set(d, layout_.scale_hi[c])), hn::Mul(sum, hn::Set(d, layout_.scale_lo[c])));
-    }
-
-  private:
-    /// The field of channel c at bit `shift` of `word`, or its value where a table holds that.
-    HWY_INLINE V field(int c, int shift, hn::Vec<hn::RebindToUnsigned<IntTag>> word) const {
-        const FloatTag d;
-        const IntTag di;
-        const hn::RebindToUnsigned<IntTag> du;
-        const uint32_t mask = layout_.mask[c];
-        if (!plain && mask == 0) return hn::Zero(d);
-        const auto bits = hn::BitCast(di, hn::And(hn::ShiftRightSame(word, shift), hn::Set(du, mask)));
-        if constexpr (plain) return hn::ConvertTo(d, bits);
-        if (layout_.table[c] != nullptr) return hn::GatherIndex(d, layout_.table[c], bits);
-        if (!layout_.is_signed) return hn::ConvertTo(d, bits);
-        // Flipping the sign bit and subtracting it extends the sign. Two codes mean -1 (D3D11.3 3.2.3.4).
-        const auto sign = hn::Set(di, int32_t((mask + 1) >> 1));
-        const auto extended = hn::Sub(hn::Xor(bits, sign), sign);
-        return hn::ConvertTo(d, hn::Max(extended, hn::Set(di, -layout_.denominator[c])));
-    }
-
-    const TexelLayout& layout_;
-    const std::byte* texels_;
-};
-
 /// sum += weight * number, where a weight of 0 silences an infinity.
 template <StorageClass storage, class V>
 HWY_INLINE void add_weighed(V weight, const V (&number)[4], V (&sum)[4]) {
@@ -275,6 +200,45 @@ HWY_NOINLINE void sum_taps_as(const Texture& texture, const WideTaps& taps, cons
     }
 }
 
+/// The same where all taps fall into a window.
+template <StorageClass storage, bool plain>
+HWY_NOINLINE void sum_window_as(Texture& texture, const TexelWindow& window, const WideTaps& taps, WaveColor& out) {
+    const FloatTag d;
+    const IntTag di;
+    const TexelReader<storage, plain> reader(texture);
+    FloatVec texel[4];
+    reader.read(ensure_window<storage>(texture, window, *taps.level), texel);
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        FloatVec sum[4] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+        for (int j = 0; j < taps.y.count; ++j) {
+            const auto y = hn::Load(di, taps.y.texel[j].lane + i);
+            FloatVec row[4] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+            for (int k = 0; k < taps.x.count; ++k) {
+                const auto at = in_window(window, hn::Load(di, taps.x.texel[k].lane + i), y);
+                FloatVec read[4];
+                for (int c = 0; c < 4; ++c) read[c] = hn::TableLookupLanes(texel[c], at);
+                add_weighed<storage>(hn::Load(d, taps.x.weight[k].lane + i), read, row);
+            }
+            add_weighed<storage>(hn::Load(d, taps.y.weight[j].lane + i), row, sum);
+        }
+        for (int c = 0; c < 4; ++c) hn::Store(reader.value(c, sum[c]), d, out.channel[c].lane + i);
+    }
+}
+
+/// Filters what fits into a window; false where the taps do not.
+template <StorageClass storage>
+HWY_INLINE bool filter_window(Texture& texture, const WideTaps& taps, WaveColor& out) {
+    if (taps.leaves() || taps.cube || taps.volume || taps.slice != nullptr) return false;
+    TexelWindow window;
+    if (!find_window(*taps.level, taps.x.texel, taps.x.count, taps.y.texel, taps.y.count, window)) return false;
+    if (is_plain(texture.texel_layout())) {
+        sum_window_as<storage, true>(texture, window, taps, out);
+    } else {
+        sum_window_as<storage, false>(texture, window, taps, out);
+    }
+    return true;
+}
+
 template <StorageClass storage>
 HWY_INLINE void sum_taps(const Texture& texture, const WideTaps& taps, const TapOffsets& offsets, WaveColor& out) {
     if constexpr (is_packed(storage)) {
@@ -318,6 +282,9 @@ HWY_NOINLINE inline void add_border(const TexelLayout& layout, const std::array<
 /// Ensures, gathers and weighs the taps of one level.
 template <StorageClass storage>
 HWY_NOINLINE void filter_wide(Texture& texture, const std::array<float, 4>& border, WideTaps& taps, WaveColor& out) {
+    if constexpr (has_windows(storage)) {
+        if (filter_window<storage>(texture, taps, out)) return;
+    }
     TapOffsets offsets;
     tap_offsets<storage>(texture.levels(), taps, offsets);
     if (!taps.leaves()) {

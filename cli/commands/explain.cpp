@@ -8,6 +8,7 @@
 #include "cli/option_values.h"
 #include "cli/pixel_watcher.h"
 #include "cli/view.h"
+#include "shading/cluster_meshes.h"
 #include "shading/accumulation.h"
 
 #include <algorithm>
@@ -147,7 +148,8 @@ int ExplainCommand::run(const Invocation& invocation) {
 
     ProgressReport progress(invocation.err, request_.machine.progress, invocation.err_is_terminal);
     progress.begin("loading");
-    const shading::Scene scene = load_scene(words_[0], request_, load_options(request_, invocation, progress));
+    shading::Scene scene = load_scene(words_[0], request_, load_options(request_, invocation, progress));
+    shading::cluster_meshes(scene, *executor);
     const ImageSize size = request_.image_size();
     const View view = choose_view(scene, request_.view, float(size.width) / float(size.height));
     progress.begin("preparing light");

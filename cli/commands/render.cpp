@@ -18,6 +18,7 @@
 #include "cli/view.h"
 #include "scenes/load.h"
 #include "scenes/output_file.h"
+#include "shading/cluster_meshes.h"
 #include "shading/reference.h"
 #include "shading/render.h"
 
@@ -292,7 +293,8 @@ int RenderCommand::run(const Invocation& invocation) {
 
     ProgressReport progress(invocation.err, request_.machine.progress, invocation.err_is_terminal);
     progress.begin("loading");
-    const shading::Scene scene = load_scene(invocation, progress);
+    shading::Scene scene = load_scene(invocation, progress);
+    shading::cluster_meshes(scene, *executor);
     const ImageSize size = request_.image_size();
     const View view = choose_view(scene, request_.view, float(size.width) / float(size.height));
     progress.begin("preparing light");

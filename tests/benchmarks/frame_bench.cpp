@@ -1,6 +1,7 @@
 // Whole frames of the built-in scenes, 1920x1080, one sample a pixel, all cores: geometry to resolved image.
 #include "scenes/builtin.h"
 #include "shading/camera.h"
+#include "shading/cluster_meshes.h"
 #include "shading/render.h"
 
 #include <benchmark/benchmark.h>
@@ -12,8 +13,9 @@ namespace {
 using namespace rawtexel;
 
 void frame(benchmark::State& state, const scenes::BuiltinScene& builtin) {
-    const shading::Scene scene = builtin.make({});
+    shading::Scene scene = builtin.make({});
     const auto executor = shading::make_executor(shading::default_executor_kind(), 0);
+    shading::cluster_meshes(scene, *executor);
     std::shared_ptr<const shading::Environment> environment;
     if (scene.environment == shading::EnvironmentRequest::Sky)
         environment = std::make_shared<shading::Environment>(shading::sky_latlong(), *executor);

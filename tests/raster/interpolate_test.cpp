@@ -42,8 +42,7 @@ void source_vertices(const SetupTriangle& triangle, const Draw& draw, reference:
 /// Calls visit(triangle, x, y) for some samples that each setup triangle covers.
 template <class Visit>
 void for_covered_samples(const Frame& frame, int stride, Visit&& visit) {
-    for (uint32_t i = 0; i < frame.triangle_count(); ++i) {
-        const SetupTriangle& triangle = frame.triangle(i);
+    frame.for_each_triangle([&](uint32_t i, const SetupTriangle& triangle) {
         const reference::SnappedTriangle snapped = reference::snapped(triangle);
         for (int y = int(i) % stride; y < kSize; y += stride) {
             for (int x = int(i / 7) % stride; x < kSize; x += stride) {
@@ -51,7 +50,7 @@ void for_covered_samples(const Frame& frame, int stride, Visit&& visit) {
                 if (reference::covers(snapped, x * 512 + offset.x, y * 512 + offset.y)) visit(triangle, x + 0.5, y + 0.5);
             }
         }
-    }
+    });
 }
 
 struct WorstWeights {
@@ -173,9 +172,8 @@ TEST(Interpolation, GivesSnappedVerticesTheirOwnAttributes) {
     const MixedScene scene(3);
     const Frame frame(frame_options(), scene.draws);
     int whole = 0;
-    for (uint32_t i = 0; i < frame.triangle_count(); ++i) {
-        const SetupTriangle& triangle = frame.triangle(i);
-        if (triangle.bary_over_w != nullptr) continue;
+    frame.for_each_triangle([&](uint32_t, const SetupTriangle& triangle) {
+        if (triangle.bary_over_w != nullptr) return;
         ++whole;
         for (int k = 0; k < 3; ++k) {
             const Barycentrics at = barycentrics(triangle, triangle.x[k] / 256.0, triangle.y[k] / 256.0);
@@ -183,7 +181,7 @@ TEST(Interpolation, GivesSnappedVerticesTheirOwnAttributes) {
             EXPECT_EQ(float(at.b2), triangle.corner[k] == 2 ? 1.0f : 0.0f);
             EXPECT_NEAR(at.inverse_w / triangle.inverse_w[size_t(k)], 1.0, 1e-14);
         }
-    }
+    });
     EXPECT_GT(whole, 50);
 }
 

@@ -129,6 +129,16 @@ TEST_F(FilteringTest, DrawsWithNumbersOfTheirOwnConvergeToFilteringFirstWhereSha
     expect_agreement(compare(drawn(Estimator::Reservoir), radiance(listed()), 800), "shared");
 }
 
+TEST_F(FilteringTest, CommonNumbersForBothSignsChangeNoMean) {
+    add_quad(lit_material(20, 20, 20));
+    options_.filter = Kernel::CatmullRom;
+    const Image all = radiance(listed());
+    FilteringOptions common = drawn(Estimator::Reservoir);
+    common.common_numbers = true;
+    EXPECT_GT(largest_difference(radiance(common), radiance(drawn(Estimator::Reservoir))), 0.01);
+    expect_agreement(compare(common, all, 1500), "common numbers");
+}
+
 TEST_F(FilteringTest, MaskAndBlendDecideWithTheTexelThatIsShaded) {
     for (const AlphaMode mode : {AlphaMode::Mask, AlphaMode::Blend}) {
         scene_ = {};

@@ -16,15 +16,14 @@ Winner winner_at(const raster::Frame& frame, int x, int y, const raster::SampleO
     Winner winner;
     uint32_t winner_id = raster::kNoTriangle;
     const int64_t sample_x = int64_t{x} * 512 + offset.x, sample_y = int64_t{y} * 512 + offset.y;
-    for (uint32_t i = 0; i < frame.triangle_count(); ++i) {
-        const raster::SetupTriangle& triangle = frame.triangle(i);
-        if (!covers(snapped(triangle), sample_x, sample_y)) continue;
+    frame.for_each_triangle([&](uint32_t i, const raster::SetupTriangle& triangle) {
+        if (!covers(snapped(triangle), sample_x, sample_y)) return;
         const float depth = depth_at(triangle, sample_x, sample_y);
-        if (depth < winner.depth || (depth == winner.depth && triangle.triangle_id >= winner_id)) continue;
-        if (triangle.coverage != raster::CoverageClass::Opaque && !covering(triangle, x, y)) continue;
+        if (depth < winner.depth || (depth == winner.depth && triangle.triangle_id >= winner_id)) return;
+        if (triangle.coverage != raster::CoverageClass::Opaque && !covering(triangle, x, y)) return;
         winner = {i, depth};
         winner_id = triangle.triangle_id;
-    }
+    });
     return winner;
 }
 
