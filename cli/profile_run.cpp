@@ -3,6 +3,7 @@
 #include "cli/frame_setup.h"
 #include "cli/illumination.h"
 #include "cli/view.h"
+#include "shading/cluster_meshes.h"
 
 namespace rawtexel::cli {
 namespace {
@@ -48,6 +49,7 @@ class ProfileRunner {
         // What a file is warned of is said once.
         if (&setting != &plan_.settings[0]) options.warn = {};
         prepared.scene = std::make_unique<shading::Scene>(load_scene(plan_.scene, setting.request, options));
+        shading::cluster_meshes(*prepared.scene, executor_);
         const ImageSize size = setting.request.image_size();
         prepared.view = choose_view(*prepared.scene, setting.request.view, float(size.width) / float(size.height));
         progress_.begin("preparing light");
