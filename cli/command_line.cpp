@@ -39,13 +39,19 @@ struct CommandLine::Impl {
         Reader read;
         std::optional<std::string> given;  ///< the word
     };
+    struct RepeatedOption {
+        std::string name, value;
+        Reader read;
+    };
     std::optional<Arguments> arguments;
     std::vector<ValuedFlag> valued_flags;
+    std::vector<RepeatedOption> repeated_options;
     bool help = false;
 
     std::vector<std::string> option_names() const;
     void check_for_repeats() const;
     std::vector<std::string> take_valued_flags(const std::vector<std::string>& words);
+    std::vector<std::string> take_repeated_options(const std::vector<std::string>& words) const;
     void take_remaining(const std::vector<std::string>& remaining);
     [[noreturn]] void throw_unknown_option(const std::string& word) const;
 };
@@ -80,6 +86,28 @@ std::vector<std::string> CommandLine::Impl::take_valued_flags(const std::vector<
         if (flag->given) throw UsageError(flag->name + ": given more than once ('" + *flag->given + "' and '" + *word + "')");
         flag->given = *word;
         flag->read(word->size() > flag->name.size() ? word->substr(flag->name.size() + 1) : "");
+    }
+    others.insert(others.end(), end, words.end());
+    return others;
+}
+
+// Reads the words that are repeated options and their values, and returns the others.
+std::vector<std::string> CommandLine::Impl::take_repeated_options(const std::vector<std::string>& words) const {
+    std::vector<std::string> others;
+    const auto end = std::ranges::find(words, "--");
+    for (auto word = words.begin(); word != end; ++word) {
+        const auto option = std::ranges::find(repeated_options, option_name(*word), &RepeatedOption::name);
+        if (option == repeated_options.end()) {
+            others.push_back(*word);
+            continue;
+        }
+        std::string value;
+        if (word->size() > option->name.size())
+            value = word->substr(option->name.size() + 1);
+        else if (word + 1 != end)
+            value = *++word;
+        if (value.empty()) throw UsageError(option->name + ": a value is missing (" + option->value + ")");
+        option->read(value);
     }
     others.insert(others.end(), end, words.end());
     return others;
@@ -131,6 +159,12 @@ void CommandLine::option(const std::string& names, const std::string& value, con
     impl_->entries.push_back({{}, names + " " + value, help});
 }
 
+void CommandLine::repeated_option(const std::string& name, const std::string& value, const std::string& help, Reader read) {
+    impl_->app.add_option(name);  // so that misspelt options find it, and its value is no other word
+    impl_->repeated_options.push_back({name, value, std::move(read)});
+    impl_->entries.push_back({{}, name + " " + value, help});
+}
+
 void CommandLine::flag(const std::string& names, const std::string& help, bool& set) {
     impl_->app.add_flag_callback(names, [&set] { set = true; });
     impl_->entries.push_back({{}, names, help});
@@ -149,7 +183,7 @@ void CommandLine::arguments(std::string name, std::string help, size_t least, si
 
 bool CommandLine::parse(const std::vector<std::string>& words) {
     if (std::ranges::any_of(words, [](const std::string& word) { return word == "--help" || word == "-h"; })) return false;
-    std::vector<std::string> reversed = separate_short_values(impl_->take_valued_flags(words));
+    std::vector<std::string> reversed = separate_short_values(impl_->take_valued_flags(impl_->take_repeated_options(words)));
     std::ranges::reverse(reversed);
     try {
         impl_->app.parse(reversed);

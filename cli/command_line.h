@@ -27,6 +27,8 @@ class CommandLine {
     void group(std::string heading);
     /// `names` such as "-o,--output"; `value` such as "FILE" for the help. Given twice is an error. `read` may throw UsageError.
     void option(const std::string& names, const std::string& value, const std::string& help, Reader read);
+    /// May be given again and again, and its values may begin with dashes; one long name.
+    void repeated_option(const std::string& name, const std::string& value, const std::string& help, Reader read);
     void flag(const std::string& names, const std::string& help, bool& set);
     /// A flag that may carry a value behind a colon: "--ewa" or "--ewa:0.25". `read` gets the value, empty without one.
     void flag_with_value(const std::string& name, const std::string& value, const std::string& help, Reader read);

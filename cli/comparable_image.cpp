@@ -1,6 +1,8 @@
 #include "cli/comparable_image.h"
 
+#include "scenes/image_codec.h"
 #include "scenes/image_io.h"
+#include "shading/transfer.h"
 
 #include <algorithm>
 #include <cassert>
@@ -10,7 +12,20 @@ namespace rawtexel::cli {
 
 using shading::Image;
 
-Image read_comparable(const std::string& path) {
+namespace {
+
+// Of TIFF files only the header tells.
+bool holds_linear_light(const std::string& path) {
+    if (!scenes::is_float_format(path)) return false;
+    const std::string extension = scenes::extension_of(path);
+    if (extension != "tif" && extension != "tiff") return true;
+    const scenes::SampleType type = scenes::read_image_header(path, scenes::read_file(path)).type;
+    return type == scenes::SampleType::Half || type == scenes::SampleType::Float;
+}
+
+}  // namespace
+
+ComparableImage read_comparable(const std::string& path) {
     const Image whole = scenes::read_image(path, /*srgb_integers=*/false);
     const int channels = whole.channels >= 3 ? 3 : 1;
     // Float formats hold colour times alpha already, the others do not.
@@ -22,7 +37,7 @@ Image read_comparable(const std::string& path) {
             const float alpha = has_alpha ? from[channels] : 1.0f;
             std::transform(from, from + channels, colour.pixel(x, y), [&](float value) { return value * alpha; });
         }
-    return colour;
+    return {std::move(colour), holds_linear_light(path)};
 }
 
 Image with_channels(Image image, int channels) {
@@ -39,12 +54,14 @@ Image absolute_difference(const Image& a, const Image& b) {
     return difference;
 }
 
-bool mixes_linear_and_display(const std::string& path_a, const std::string& path_b) {
-    const auto is_tiff = [](const std::string& path) {
-        const std::string extension = scenes::extension_of(path);
-        return extension == "tif" || extension == "tiff";
-    };
-    return !is_tiff(path_a) && !is_tiff(path_b) && scenes::is_float_format(path_a) != scenes::is_float_format(path_b);
+Image to_linear(Image display) {
+    for (float& value : display.values) value = float(shading::decoded(double(value), shading::Transfer::Srgb));
+    return display;
+}
+
+Image to_display(Image linear) {
+    for (float& value : linear.values) value = float(shading::encoded(std::clamp(double(value), 0.0, 1.0), shading::Transfer::Srgb));
+    return linear;
 }
 
 }  // namespace rawtexel::cli

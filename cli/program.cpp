@@ -5,6 +5,7 @@
 #include "cli/commands/explain.h"
 #include "cli/commands/export.h"
 #include "cli/commands/list.h"
+#include "cli/commands/profile.h"
 #include "cli/commands/render.h"
 #include "cli/commands/sample.h"
 #include "cli/commands/texture.h"
@@ -27,11 +28,11 @@ namespace rawtexel::cli {
 namespace {
 
 using Words = std::vector<std::string>;
-using Commands = std::array<std::unique_ptr<Command>, 7>;
+using Commands = std::array<std::unique_ptr<Command>, 8>;
 
 Commands all_commands() {
-    return {make_render_command(),  make_compare_command(), make_explain_command(), make_sample_command(),
-            make_texture_command(), make_list_command(),    make_export_command()};
+    return {make_render_command(), make_profile_command(), make_compare_command(), make_explain_command(),
+            make_sample_command(), make_texture_command(), make_list_command(),    make_export_command()};
 }
 
 std::vector<std::string> names_of(const Commands& commands) {

@@ -263,10 +263,7 @@ std::vector<Aov> parse_aovs(std::string_view text) {
     return aovs;
 }
 
-void declare_render_options(CommandLine& line, RenderRequest& request) {
-    declare_image_options(line, request);
-    declare_view_options(line, request.view);
-    declare_light_options(line, request.light);
+void declare_setting_options(CommandLine& line, RenderRequest& request) {
     line.group("Texture unit");
     declare_lookup_options(line, request.lookup);
     line.group("Footprints");
@@ -277,6 +274,13 @@ void declare_render_options(CommandLine& line, RenderRequest& request) {
                 [&](const std::string& text) { request.policy = text; });
     declare_baseline_option(line, request.lookup.filtering);
     declare_sample_options(line, request.samples);
+}
+
+void declare_render_options(CommandLine& line, RenderRequest& request) {
+    declare_image_options(line, request);
+    declare_view_options(line, request.view);
+    declare_light_options(line, request.light);
+    declare_setting_options(line, request);
     declare_tone_options(line, request.tone);
     declare_fetch_options(line, request.fetches);
     declare_machine_options(line, request.machine);

@@ -120,6 +120,8 @@ std::string print(const EnvironmentOption& environment);
 std::optional<glm::vec3> parse_background(std::string_view text);  // environment R,G,B
 std::vector<shading::Aov> parse_aovs(std::string_view text);       // depth,normal,…
 
+/// Declares the options that say how textures are looked up and how often: filters, footprints, order, policies, samples.
+void declare_setting_options(CommandLine& line, RenderRequest& request);
 /// Declares all options that set a RenderRequest.
 void declare_render_options(CommandLine& line, RenderRequest& request);
 

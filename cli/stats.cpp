@@ -100,7 +100,7 @@ Json lookup_choices(const LookupOptions& lookup) {
 
 }  // namespace
 
-std::string stats_json(const RunRecord& record, const shading::Scene& scene) {
+Json stats_object(const RunRecord& record, const shading::Scene& scene) {
     Json json{{"rawtexel", version()},
               {"scene", record.scene},
               {"command", record.command},
@@ -112,8 +112,12 @@ std::string stats_json(const RunRecord& record, const shading::Scene& scene) {
               {"geometry", geometry_numbers(record.result.geometry)}};
     if (record.sequence) json["sequence"] = sequence_numbers(record);
     add_texture_stats(record, scene, json);
+    return json;
+}
+
+std::string stats_json(const RunRecord& record, const shading::Scene& scene) {
     // Names come from files: bytes that are no UTF-8 are replaced, not refused.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return stats_object(record, scene).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace rawtexel::cli

@@ -49,12 +49,18 @@ void FetchTally::lookup(const ListenedLookup& lookup) {
     const uint32_t place = set_.place[lookup.map->texture_index];
     texunit::FetchCounter counter = counter_of(place);
     texunit::WaveFloat lod;
+    const texunit::Wave<uint32_t> before = wave_texels_;
     count_wave(*lookup.map->texture, lookup.map->sampler, *lookup.at, lookup.lanes, counter, options_.pixel_layers ? &lod : nullptr);
     if (records()) {
         recorder_.set_texture(place);
         record_wave(*lookup.map->texture, lookup.map->sampler, *lookup.at, lookup.lanes, recorder_);
     }
-    if (options_.pixel_layers) measure(lookup, lod);
+    if (!options_.pixel_layers) return;
+    measure(lookup, lod);
+    for (texunit::WaveMask rest = lookup.lanes; rest != 0; rest &= rest - 1) {
+        const int lane = std::countr_zero(rest);
+        histograms_.add_texels(wave_texels_[lane] - before[lane]);
+    }
 }
 
 void FetchTally::drawn(const ListenedDraw& draw) {
@@ -62,17 +68,39 @@ void FetchTally::drawn(const ListenedDraw& draw) {
     const uint32_t place = set_.place[lookup.map->texture_index];
     const texunit::Texture& texture = *lookup.map->texture;
     texunit::FetchCounter counter = counter_of(place);
+    const texunit::Wave<uint32_t> before = wave_texels_;
     count_drawn_wave(texture, *draw.draw, lookup.lanes, draw.first, counter);
     if (records()) {
         recorder_.set_texture(place);
         record_drawn_wave(texture, *draw.draw, lookup.lanes, draw.first, recorder_);
     }
-    if (!options_.pixel_layers || !draw.first) return;
+    if (!options_.pixel_layers) return;
+    add_drawn_texels(draw, before);
+    if (!draw.first) return;
     texunit::WaveFloat lod;
     texunit::FetchCounts unused;
     texunit::FetchCounter measured{.counts = &unused};
     count_wave(*lookup.map->texture, lookup.map->sampler, *lookup.at, lookup.lanes, measured, &lod);
     measure(lookup, lod);
+}
+
+void FetchTally::add_drawn_texels(const ListenedDraw& draw, const texunit::Wave<uint32_t>& before) {
+    DrawnLookup& drawn = drawn_[size_t(draw.lookup.slot)];
+    if (draw.first) {
+        end_drawn(drawn);
+        drawn.lanes = draw.lookup.lanes;
+    }
+    for (int lane = 0; lane < texunit::kWaveLanes; ++lane) drawn.texels[lane] += wave_texels_[lane] - before[lane];
+}
+
+void FetchTally::end_drawn(DrawnLookup& drawn) {
+    for (texunit::WaveMask rest = drawn.lanes; rest != 0; rest &= rest - 1) histograms_.add_texels(drawn.texels[std::countr_zero(rest)]);
+    drawn = {};
+}
+
+void FetchTally::end_all_drawn() {
+    for (DrawnLookup& drawn : drawn_)
+        if (drawn.lanes != 0) end_drawn(drawn);
 }
 
 void FetchTally::measure(const ListenedLookup& lookup, const texunit::WaveFloat& lod) {
@@ -84,6 +112,7 @@ void FetchTally::measure(const ListenedLookup& lookup, const texunit::WaveFloat&
         sums.level += double(lod[lane]);
         sums.anisotropy += double(footprint.anisotropy[lane]);
         ++sums.lookups;
+        histograms_.add_lookup(lod[lane], footprint.anisotropy[lane]);
     }
 }
 
@@ -94,6 +123,7 @@ size_t FetchTally::pixel(int lane) const {
 }
 
 void FetchTally::end_wave() {
+    end_all_drawn();
     if (sums_pixels()) sum_pixels_of_wave();
     if (options_.needs_order()) recorder_.end_wave(stream_);
 }
@@ -139,6 +169,7 @@ void FetchTally::end_tile() {
 void FetchTally::add_to(FrameFetches& frame) const {
     for (size_t i = 0; i < counts_.size(); ++i) frame.counts[i] += counts_[i];
     frame.touched.merge(touched_);
+    frame.histograms += histograms_;
 }
 
 }  // namespace rawtexel::shading

@@ -8,6 +8,7 @@
 #include "shading/pixel_rect.h"
 #include "texunit/fetch_stream.h"
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -25,7 +26,7 @@ class FetchTally final : public LookupListener {
 
     void begin_tile(int tile_x, int tile_y) override;
     void begin_wave(const ListenedWave& wave) override;
-    void fragments(const ListenedFragments&) override {}
+    void fragments(const ListenedFragments&) override { end_all_drawn(); }
     void lookup(const ListenedLookup& lookup) override;
     void drawn(const ListenedDraw& draw) override;
     void end_wave() override;
@@ -45,6 +46,14 @@ class FetchTally final : public LookupListener {
     bool records() const { return options_.pixel_lines || options_.needs_order(); }
     bool sums_pixels() const { return !pixels_.empty(); }
     texunit::FetchCounter counter_of(size_t place);
+    /// A lookup whose texels are drawn one after the other.
+    struct DrawnLookup {
+        texunit::WaveMask lanes = 0;
+        texunit::Wave<uint32_t> texels{};
+    };
+    void add_drawn_texels(const ListenedDraw& draw, const texunit::Wave<uint32_t>& before);
+    void end_drawn(DrawnLookup& drawn);
+    void end_all_drawn();
     void measure(const ListenedLookup& lookup, const texunit::WaveFloat& lod);
     void sum_pixels_of_wave();
     size_t pixel(int lane) const;
@@ -64,6 +73,8 @@ class FetchTally final : public LookupListener {
     int tile_x_ = 0, tile_y_ = 0;  ///< the tile's number along either axis
     ListenedWave wave_;
     texunit::Wave<uint32_t> wave_texels_{};
+    FetchHistograms histograms_;
+    std::array<DrawnLookup, kMapSlots> drawn_{};  ///< of the fragments at hand
 };
 
 }  // namespace rawtexel::shading

@@ -29,6 +29,19 @@ enum class PixelCount { TexelsRequested, LinesPixel, LinesFirst, BlocksFirst, L1
 std::string_view to_string(PixelCount count);  // texels_requested lines_pixel lines_first blocks_first l1_miss l2_miss level …
 inline constexpr int kPixelCounts = int(PixelCount::Samples) + 1;
 
+/// How many lookups there were of each kind.
+struct FetchHistograms {
+    static constexpr int kBinsPerLevel = 4;
+    std::vector<uint64_t> level;       ///< bin i: level of detail from i to i + 1 quarters
+    std::vector<uint64_t> anisotropy;  ///< bin i: ratio of the footprint's axes from i to i + 1
+    std::vector<uint64_t> texels;      ///< bin i: i texels read
+
+    void add_lookup(float level_of_detail, float ratio);
+    void add_texels(uint32_t count);
+    FetchHistograms& operator+=(const FetchHistograms& other);
+    bool operator==(const FetchHistograms&) const = default;
+};
+
 struct FrameFetches {
     explicit FrameFetches(const TextureSet& set);
 
@@ -38,6 +51,7 @@ struct FrameFetches {
     std::vector<texunit::FetchReplay::LevelCacheCounts> cache;  ///< likewise; empty unless a cache was modelled
     /// One image of one channel for each PixelCount; empty where nobody asked, or where no cache was modelled.
     std::vector<Image> pixels;
+    FetchHistograms histograms;  ///< empty unless FetchOptions::pixel_layers; each sums to the lookups
 
     texunit::FetchCounts total() const;
     const Image& pixel(PixelCount count) const { return pixels[size_t(count)]; }

@@ -165,5 +165,27 @@ TEST(CommandLine, WrappedTextKeepsItsWordsAndItsWidth) {
     EXPECT_EQ(wrapped, text);
 }
 
+TEST(CommandLine, RepeatedOptionsTakeDashesAndComeInOrder) {
+    std::vector<std::string> values, words;
+    int size = 0;
+    const auto read = [&](const std::vector<std::string>& given) {
+        CommandLine line{"test", ""};
+        values.clear();
+        line.arguments("FILE", "", 0, 1, words);
+        line.repeated_option("--with", "OPTIONS", "", [&](const std::string& text) { values.push_back(text); });
+        line.option("--size", "N", "", [&](const std::string& text) { size = std::stoi(text); });
+        return line.parse(given);
+    };
+    EXPECT_TRUE(read({"--with", "--a b", "file", "--with=-c", "--size", "3", "--with", "d"}));
+    EXPECT_EQ(values, (std::vector<std::string>{"--a b", "-c", "d"}));
+    EXPECT_EQ(words, std::vector<std::string>{"file"});
+    EXPECT_EQ(size, 3);
+    EXPECT_THROW(read({"--with"}), UsageError);
+    EXPECT_THROW(read({"--with="}), UsageError);
+    EXPECT_THROW(read({"--with", ""}), UsageError);
+    EXPECT_TRUE(read({"--", "--with"}));
+    EXPECT_EQ(words, std::vector<std::string>{"--with"});
+}
+
 }  // namespace
 }  // namespace rawtexel::cli

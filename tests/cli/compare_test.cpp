@@ -136,10 +136,120 @@ TEST(Compare, WritesCsvWithAHeader) {
     write_flat_png(folder / "b.png", 255);
     ASSERT_EQ(run({"compare", folder / "a,b.png", folder / "b.png", "--csv", folder / "x.csv"}).code, kDone);
     const std::string csv = test::read_file(folder / "x.csv");
-    EXPECT_TRUE(csv.starts_with("image,reference,mse,rmse,psnr,relmse,max,mean\n\"" + folder / "a,b.png" + "\"," + folder / "b.png" +
-                                ",1,1,0,0.990099009900"))
+    EXPECT_TRUE(
+        csv.starts_with("image,reference,mse,rmse,psnr,relmse,max,mean,flip,flip_q1,flip_median,flip_q3,flip_min,flip_max,flip_kind\n\"" +
+                        folder / "a,b.png" + "\"," + folder / "b.png" + ",1,1,0,0.990099009900"))
         << csv;
-    EXPECT_TRUE(csv.ends_with(",1,1\n")) << csv;
+    EXPECT_NE(csv.find(",1,1,0.96"), std::string::npos) << csv;
+    EXPECT_TRUE(csv.ends_with(",ldr\n")) << csv;
+    ASSERT_EQ(run({"compare", folder / "a,b.png", folder / "b.png", "--csv", folder / "y.csv", "--flip", "none"}).code, kDone);
+    EXPECT_TRUE(test::read_file(folder / "y.csv").ends_with(",1,1,,,,,,,\n")) << test::read_file(folder / "y.csv");
+}
+
+Json first_image(const std::vector<std::string>& words) {
+    std::vector<std::string> all{"compare", "--json"};
+    all.insert(all.end(), words.begin(), words.end());
+    const test::Outcome outcome = run(all);
+    EXPECT_EQ(outcome.code, kDone) << outcome.err;
+    const Json json = Json::parse(outcome.out);
+    return json["images"][0];
+}
+
+TEST(CompareFlip, IsLdrOfDisplayValuesAndHdrOfLinearLight) {
+    const TemporaryFolder folder;
+    write_flat_png(folder / "a.png", 0);
+    write_flat_png(folder / "b.png", 255);
+    write_flat_exr(folder / "a.exr", 0.5f);
+    write_flat_exr(folder / "b.exr", 2.0f);
+    const Json ldr = first_image({folder / "a.png", folder / "b.png"}), hdr = first_image({folder / "a.exr", folder / "b.exr"});
+    EXPECT_EQ(ldr["flip_kind"], "ldr");
+    EXPECT_FALSE(ldr.contains("flip_exposures"));
+    EXPECT_GT(ldr["flip"], 0.95);
+    EXPECT_EQ(ldr["flip"], ldr["flip_max"]);
+    EXPECT_NEAR(ldr["flip_pixels_per_degree"], 67.02, 0.01);
+    EXPECT_EQ(hdr["flip_kind"], "hdr");
+    EXPECT_EQ(hdr["flip_exposures"]["count"], 2);
+    // Beside a PNG, an EXR is shown as a screen would.
+    EXPECT_EQ(first_image({folder / "a.exr", folder / "b.png"})["flip_kind"], "ldr");
+    EXPECT_EQ(first_image({folder / "b.exr", folder / "b.png"})["flip"], 0.0);
+    EXPECT_EQ(first_image({folder / "a.exr", folder / "b.exr", "--flip", "ldr"})["flip_kind"], "ldr");
+    EXPECT_EQ(first_image({folder / "a.png", folder / "b.png", "--flip", "hdr"})["flip_kind"], "hdr");
+    EXPECT_FALSE(first_image({folder / "a.png", folder / "b.png", "--flip", "none"}).contains("flip"));
+}
+
+// An integer TIFF holds display values, a float TIFF linear light.
+TEST(CompareFlip, KnowsWhatATiffHolds) {
+    const TemporaryFolder folder;
+    write_flat_exr(folder / "a.exr", 0.25f);
+    write_flat_exr(folder / "a.tif", 0.25f);
+    const Json json = first_image({folder / "a.tif", folder / "a.exr"});
+    EXPECT_EQ(json["flip_kind"], "hdr");
+    EXPECT_EQ(json["flip"], 0.0);
+    write_flat_png(folder / "b.tif", 188);
+    EXPECT_EQ(first_image({folder / "b.tif", folder / "a.exr"})["flip_kind"], "ldr");
+}
+
+TEST(CompareFlip, TakesLightAndDisplayValuesToOneSpace) {
+    const TemporaryFolder folder;
+    write_flat_png(folder / "a.png", 188);
+    write_flat_exr(folder / "a.exr", float(std::pow((188.0 / 255.0 + 0.055) / 1.055, 2.4)));
+    for (const std::string kind : {"ldr", "hdr"})
+        EXPECT_LT(first_image({folder / "a.png", folder / "a.exr", "--flip", kind})["flip"], 1e-4) << kind;
+}
+
+TEST(CompareFlip, DependsOnTheDistance) {
+    const TemporaryFolder folder;
+    scenes::write_8bit(folder / "a.png", 2, 1, 1, std::vector<uint8_t>{0, 255}, {});
+    scenes::write_8bit(folder / "b.png", 2, 1, 1, std::vector<uint8_t>{255, 0}, {});
+    const double near = first_image({folder / "a.png", folder / "b.png", "--pixels-per-degree", "1"})["flip"];
+    const double far = first_image({folder / "a.png", folder / "b.png", "--pixels-per-degree", "200"})["flip"];
+    EXPECT_GT(near, far + 0.1) << near << " against " << far;
+}
+
+TEST(CompareFlip, ChecksTheMean) {
+    const TemporaryFolder folder;
+    write_flat_png(folder / "a.png", 0);
+    write_flat_png(folder / "b.png", 255);
+    EXPECT_EQ(run({"compare", folder / "a.png", folder / "b.png", "--max-flip", "0.98"}).code, kDone);
+    const test::Outcome outcome = run({"compare", folder / "a.png", folder / "b.png", "--max-flip", "0.9"});
+    EXPECT_EQ(outcome.code, kCheckFailed);
+    EXPECT_NE(outcome.err.find("a.png: FLIP 0.96"), std::string::npos) << outcome.err;
+    write_flat_exr(folder / "nan.exr", std::numeric_limits<float>::quiet_NaN());
+    write_flat_exr(folder / "b.exr", 1.0f);
+    EXPECT_EQ(run({"compare", folder / "nan.exr", folder / "b.exr", "--max-flip", "2"}).code, kCheckFailed);
+    EXPECT_TRUE(first_image({folder / "nan.exr", folder / "b.exr"})["flip"].is_null());
+}
+
+TEST(CompareFlip, WritesItsMap) {
+    const TemporaryFolder folder;
+    write_flat_png(folder / "a.png", 0);
+    write_flat_png(folder / "b.png", 255);
+    const double mean = first_image({folder / "a.png", folder / "b.png", "--flip-map", folder / "m.exr"})["flip"];
+    const shading::Image map = scenes::read_image(folder / "m.exr", false);
+    EXPECT_EQ(map.channels, 1);
+    EXPECT_EQ(map.values[5], float(mean));
+    first_image({folder / "a.png", folder / "b.png", "--flip-map", folder / "m.png"});
+    const shading::Image picture = scenes::read_image(folder / "m.png", false);
+    ASSERT_EQ(picture.channels, 3);
+    EXPECT_GT(picture.values[0], 0.95f);
+    write_flat_exr(folder / "nan.exr", std::numeric_limits<float>::quiet_NaN());
+    write_flat_exr(folder / "b.exr", 1.0f);
+    EXPECT_EQ(
+        why_not_failed(run({"compare", folder / "nan.exr", folder / "b.exr", "--flip-map", folder / "n.png"}), kBadInput, "not finite"),
+        "");
+}
+
+TEST(CompareFlip, WhatHasNoEffectIsRefused) {
+    const TemporaryFolder folder;
+    write_flat_png(folder / "a.png", 0);
+    for (const std::vector<std::string>& option :
+         {std::vector<std::string>{"--max-flip", "1"}, {"--pixels-per-degree", "60"}, {"--flip-map", folder / "m.png"}})
+        EXPECT_EQ(why_not_failed(run({"compare", folder / "a.png", folder / "a.png", "--flip", "none", option[0], option[1]}), kWrongUsage,
+                                 "--flip none leaves FLIP out"),
+                  "");
+    EXPECT_EQ(why_not_failed(run({"compare", folder / "a.png", folder / "a.png", "--flip", "ldd"}), kWrongUsage, "nearest is 'ldr'"), "");
+    EXPECT_EQ(why_not_failed(run({"compare", folder / "a.png", folder / "a.png", "--pixels-per-degree", "0.5"}), kWrongUsage, "1 to 1000"),
+              "");
 }
 
 TEST(Compare, InputThatDoesNotServeIsExitCode3) {

@@ -26,7 +26,7 @@ using test::why_not_failed;
 TEST(Usage, WrongWordsAreExitCode2WithTheNearestSpelling) {
     const std::initializer_list<std::pair<std::vector<std::string>, const char*>> cases{
         {{"rendr", "plane", "-o", "x.png"}, "the nearest is 'render'"},
-        {{"profile", "plane"}, "unknown command 'profile', the nearest is '"},
+        {{"proflie", "plane"}, "unknown command 'proflie', the nearest is 'profile'"},
         {{"render", "plane", "-o", "x.png", "--fliter", "nearest"}, "the nearest is '--filter'"},
         {{"render", "plane", "-o", "x.png", "--filter", "bilinaer"}, "the nearest is 'bilinear'"},
         {{"render", "plane", "-o", "x.png", "--aov", "dept"}, "the nearest is 'depth'"},
