@@ -139,7 +139,6 @@ TEST(LookupOptions, ANoiseIsRefusedWhereNothingDraws) {
     for (const std::vector<std::string>& more : {std::vector<std::string>{"--estimator", "reservoir"},
                                                  {"--texture-jitter", "affine", "--mip", "none"},
                                                  {"--shadow-taps", "one"},
-                                                 {"--blend", "draw"},
                                                  {"--baseline", "oiio-stochastic"}})
         EXPECT_EQ(with(more).code, kDone) << more[1];
 }
