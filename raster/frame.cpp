@@ -96,10 +96,10 @@ SeenClusters see_clusters(std::span<const Draw> draws, const FrameOptions& optio
             const Draw& draw = draws[draw_index];
             if (std::exchange(tested, draw_index) != draw_index) test.emplace(draw, options, grid);
             const Cluster& cluster = draw.clusters->clusters[number];
-            const ClusterView view = skips.clusters ? test->view(cluster) : ClusterView{};
+            const ClusterView view = skips.clusters ? test->view(cluster, draw.cull == CullMode::Back && skips.backface) : ClusterView{};
             uint64_t FrameCounts::*fate = nullptr;
             if (view.outside && skips.frustum) fate = &FrameCounts::culled_frustum;
-            if (view.facing_away && draw.cull == CullMode::Back && skips.backface) fate = &FrameCounts::culled_backface;
+            if (view.facing_away) fate = &FrameCounts::culled_backface;
             if (fate == nullptr) {
                 const CellRange cells = view.unclipped ? occlusion.cells_of(view.box) : CellRange{};
                 seen.list.push_back({draw_index, number, view.nearest, view.unclipped, cells});
