@@ -27,6 +27,7 @@ constexpr uint32_t kSeenClusters = 1024;  ///< looked at by one task
 constexpr size_t kFewestHideable = 128;   ///< clusters in view that make looking for occluders pay
 constexpr size_t kMostOccluders = 256;
 constexpr int kLeastShare = 8;              ///< an occluder has at least this part of the largest one's cells
+constexpr int64_t kLeastCover = 6;          ///< all of them have at least this part of the frame's
 constexpr int kFewestCells = 16;            ///< of an occluder
 constexpr uint64_t kMostBlocks = 1u << 20;  ///< that setup indices can name, but for the last
 
@@ -135,6 +136,9 @@ void leave_out_occluded(std::span<const Draw> draws, OcclusionBuffer& occlusion,
         std::nth_element(occluders.begin(), occluders.begin() + kMostOccluders, occluders.end(), larger);
         occluders.resize(kMostOccluders);
     }
+    int64_t cells = 0;
+    for (const Occluder& o : occluders) cells += o.cells.count();
+    if (cells < occlusion.cell_count() / kLeastCover) return;
     occlusion.draw(draws, occluders);
 
     std::vector<uint8_t> hidden(seen.list.size());

@@ -30,6 +30,7 @@ class OcclusionBuffer {
   public:
     OcclusionBuffer(const FrameOptions& options, const TileGrid& grid);
 
+    int64_t cell_count() const { return active_.count(); }  ///< of the active tiles
     /// Cells of the active tiles with a sample inside the box.
     CellRange cells_of(const SampleBox& box) const;
 

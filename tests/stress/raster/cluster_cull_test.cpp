@@ -100,13 +100,14 @@ TEST(OcclusionStress, ShowsWhatAnyGapInAWallShows) {
                 if (random() % 100 == 0) continue;
                 const bool loose = random() % 20 == 0;
                 const float x0 = float(i) * cell - 10, y0 = float(j) * cell - 10, x1 = x0 + cell - (loose ? gap : 0.0f), y1 = y0 + cell;
-                const float z = 0.7f + (random() % 8 == 0 ? uniform(random, -0.02f, 0.02f) : 0.0f);
+                const float z = 0.7f + (random() % 8 == 0 ? uniform(random, -0.3f, 0.2f) : 0.0f);
                 wall.add({x0, y0, z}, {x0, y1, z}, {x1, y0, z});
                 if (random() % 200 != 0) wall.add({x1, y0, z}, {x0, y1, z}, {x1, y1, z});
             }
         for (int i = 0; i < 9000; ++i) {
+            // As deep as it is wide, so that what makes a cluster is near one another in depth, too.
             const float x = uniform(random, -5, float(size) + 5), y = uniform(random, -5, float(size) + 5),
-                        z = uniform(random, 0.1f, 0.72f);
+                        z = kDeep * uniform(random, 0.1f, 0.72f);
             crowd.add({x, y, z}, {x, y + 4, z}, {x + 4, y, z});
         }
         glm::mat4 flatten(1.0f);
