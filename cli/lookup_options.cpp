@@ -94,6 +94,8 @@ void check_lookup(const LookupOptions& lookup) {
     check_hybrid_bias(footprint, lookup.filtering);
     if (footprint.probe_variance > 0 && lookup.names_lod_rule)
         throw UsageError("--lod-rule: --aniso N:S2 always takes the axes of the ellipse");
+    if (footprint.ellipse <= 0 && footprint.hybrid_bias && lookup.mip == MipMode::None)
+        throw UsageError("--hybrid-bias: --mip none reads level 0, and no level is finer");
     if (footprint.ellipse <= 0) return;
     const std::pair<bool, const char*> taken[] = {{lookup.filter.has_value(), "--filter"},
                                                   {lookup.mip.has_value(), "--mip"},

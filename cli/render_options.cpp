@@ -291,6 +291,8 @@ void settle(RenderRequest& request) {
     check_lookup(request.lookup);
     if (request.light.peer_shading) preset_peer_shading(request);
     if (request.samples.reference) preset_reference(request);
+    if (request.lookup.footprint.area == shading::FootprintArea::Sample && request.samples.spp == 1)
+        throw UsageError("--footprint sample: one sample's share is the whole pixel (allowed: with --spp 2 and more)");
     if (request.lookup.filtering.shadow_taps == shading::ShadowTaps::One && request.light.shadows == false)
         throw UsageError("--shadow-taps one: there are no shadows to test (--shadows off, --peer-shading)");
 }

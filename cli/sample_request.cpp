@@ -122,9 +122,21 @@ void check_draws(const SampleRequest& request) {
         throw UsageError("--signed-numbers: " + estimator + " draws one texel of " + kernel + ", not one of either sign");
 }
 
+/// Without levels there is no choice of one.
+void check_levels(const SampleRequest& request) {
+    if (request.lookup.mip != texunit::MipMode::None || request.lookup.footprint.ellipse > 0) return;
+    const std::pair<const char*, bool> given[] = {{"--lod", request.lod.has_value()},
+                                                  {"--lod-bias", request.lookup.footprint.lod_bias != 0},
+                                                  {"--min-lod", request.min_lod.has_value()},
+                                                  {"--max-lod", request.max_lod.has_value()}};
+    for (const auto& [option, is_given] : given)
+        if (is_given) throw UsageError(std::string(option) + ": --mip none reads level 0 whatever the level of detail");
+}
+
 void check_exclusions(const SampleRequest& request) {
     if (request.ddx.empty() != request.ddy.empty())
         throw UsageError(request.ddx.empty() ? "--ddy without --ddx (both, or neither)" : "--ddx without --ddy (both, or neither)");
+    check_levels(request);
     if (request.lookup.footprint.ellipse > 0 && request.max_lod) throw UsageError("--max-lod: --ewa reads level 0, or that of --min-lod");
     if (!request.lod) return;
     if (request.lookup.names_lod_rule) throw UsageError("--lod and --lod-rule exclude each other: the rule is for derivatives");

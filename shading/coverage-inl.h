@@ -148,15 +148,13 @@ class AlphaCoverage {
 
     WaveMask drawn(const raster::CandidateWave& candidate) const {
         const FloatLanes d;
-        const UintLanes du;
-        const auto surface = hn::Set(du, 1 + candidate.triangle->triangle_id);
+        const uint32_t surface = 1 + candidate.triangle->triangle_id;
+        WaveFloat number;
+        random::random_wave(texunit::random_state(seed_, sample_, surface, texunit::Dimension::Coverage), uint32_t(candidate.x),
+                            uint32_t(candidate.y), number);
         WaveMask mask = 0;
         for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) {
-            const auto lane = hn::Iota(du, uint32_t(i));
-            const auto x = hn::Add(hn::Set(du, uint32_t(candidate.x)), hn::And(lane, hn::Set(du, 7)));
-            const auto y = hn::Add(hn::Set(du, uint32_t(candidate.y)), hn::ShiftRight<3>(lane));
-            const auto bits = random::random_bits_v(du, seed_, sample_, x, y, surface, texunit::Dimension::Coverage);
-            mask |= wave_mask_bits(hn::Lt(random::unit_float_v(du, bits), hn::Load(d, alpha_.lane + i)), i);
+            mask |= wave_mask_bits(hn::Lt(hn::Load(d, number.lane + i), hn::Load(d, alpha_.lane + i)), i);
         }
         return mask;
     }

@@ -2,6 +2,7 @@
 
 #include "shading/camera.h"
 #include "shading/draw_state.h"
+#include "shading/lookup_refusal.h"
 #include "shading/fetch_account.h"
 #include "shading/temporal_sums.h"
 #include "shading/tile.h"

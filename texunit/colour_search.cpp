@@ -7,8 +7,9 @@
 namespace rawtexel::texunit {
 namespace {
 
-/// Boxes looked at in one family before it counts as searched. Wrong colours need a handful; right ones are found by descent.
-constexpr int kMostBoxes = 4096;
+/// Boxes looked at in one family before it counts as searched, and in all families of a colour. Wrong colours need a handful; right ones
+/// are found by descent, for which each family has a box in any case.
+constexpr int kMostBoxes = 4096, kMostBoxesInAll = 1 << 16;
 
 Colour colour_in(const ColourPatch& patch, const double* place) {
     const auto bilinear = [&](const Colour* corner, size_t c) {
@@ -43,7 +44,7 @@ void solve(std::array<std::array<double, size>, size>& a, std::array<double, siz
 }  // namespace
 
 ColourSearch::ColourSearch(const Colour& wanted, double threshold)
-    : wanted_(wanted), threshold_(threshold), excess_(std::numeric_limits<double>::infinity()) {
+    : wanted_(wanted), threshold_(threshold), boxes_left_in_all_(kMostBoxesInAll), excess_(std::numeric_limits<double>::infinity()) {
     least_.fill(std::numeric_limits<double>::infinity());
     most_.fill(-std::numeric_limits<double>::infinity());
 }
@@ -54,10 +55,9 @@ void ColourSearch::visit(const ColourPatch& patch) {
     finer_ = &patch;
     coarser_ = nullptr;
     sides_ = patch.sides;
-    boxes_left_ = kMostBoxes;
     Box box{};
     std::fill_n(box.begin(), sides_, Range{0, 1});
-    search(box);
+    search_family(box);
 }
 
 void ColourSearch::visit(const ColourPatch& finer, const ColourPatch& coarser, Range share, Effort effort) {
@@ -72,11 +72,10 @@ void ColourSearch::visit(const ColourPatch& finer, const ColourPatch& coarser, R
     finer_ = &finer;
     coarser_ = &coarser;
     sides_ = 2 * finer.sides + 1;
-    boxes_left_ = kMostBoxes;
     Box box{};
     std::fill_n(box.begin(), sides_ - 1, Range{0, 1});
     box[sides_ - 1] = share;
-    if (effort == Effort::Whole) return search(box);
+    if (effort == Effort::Whole) return search_family(box);
     Place middle{};
     for (size_t side = 0; side < sides_; ++side) middle[side] = (box[side].low + box[side].high) / 2;
     descend(box, middle);
@@ -117,6 +116,13 @@ double ColourSearch::measure(const Colour& colour) {
         closest_ = colour;
     }
     return excess;
+}
+
+void ColourSearch::search_family(const Box& box) {
+    const int boxes = std::clamp(boxes_left_in_all_, 2, kMostBoxes);
+    boxes_left_ = boxes;
+    search(box);
+    boxes_left_in_all_ -= boxes - boxes_left_;
 }
 
 /// Branch and bound: a multilinear function over a box lies between its values at the corners, so that most boxes are ruled out whole.

@@ -55,6 +55,7 @@ class ColourSearch {
     Colour colour_at(const Place& place) const;
     double measure(const Colour& colour);
     bool can_improve(const Colour& least, const Colour& most);
+    void search_family(const Box& box);
     void search(const Box& box);
     void descend(const Box& box, Place place);
     std::array<Colour, kMostSides> slopes(const Place& place) const;
@@ -64,8 +65,9 @@ class ColourSearch {
     const ColourPatch* finer_ = nullptr;
     const ColourPatch* coarser_ = nullptr;  ///< null: one level
     size_t sides_ = 2;
-    double bend_ = 0;  ///< of the family
-    int boxes_left_ = 0;
+    double bend_ = 0;     ///< of the family
+    int boxes_left_ = 0;  ///< of the family
+    int boxes_left_in_all_;
 
     double excess_;
     Colour closest_{}, least_, most_;

@@ -69,9 +69,10 @@ HWY_INLINE void draw_listless_texels(const DrawnLookup& lookup, const Kernel& ke
     const auto axis = [&](EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents, const WaveFloat* rest,
                           const WaveFloat& number, WaveInt& texel) HWY_ATTR {
         const CoordinateReading reading{sampler.precision, rest};
-        return sampler.estimator == Estimator::Jitter
-                   ? draw_placed(JitteredPlace{kernel}, rule, coordinate, extents, place.level, reading, number, texel)
-                   : draw_placed(WeighedPlace{kernel}, rule, coordinate, extents, place.level, reading, number, texel);
+        const auto by = [&](const auto& how)
+                            HWY_ATTR { return draw_placed(how, rule, coordinate, extents, place.level, reading, number, texel); };
+        if (sampler.estimator == Estimator::Jitter) return by(JitteredPlace{kernel});
+        return kernel.kind == KernelKind::BSpline ? by(BSplinePlace{kernel}) : by(WeighedPlace{kernel});
     };
     draw.border = axis(rule_of(at, sampler.wrap_s), *at.u, table.width, at.u_rest, numbers.x, draw.x);
     draw.border |= axis(rule_of(at, sampler.wrap_t), *at.v, table.height, at.v_rest, numbers.y, draw.y);

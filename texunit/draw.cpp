@@ -24,22 +24,12 @@ constexpr TexelDimensions kPositive{Dimension::TapX, Dimension::TapY, Dimension:
 constexpr TexelDimensions kNegative{Dimension::NegativeX, Dimension::NegativeY, Dimension::NegativeSign};
 
 void hash_numbers(const RandomAddress& first, bool negative, const NumberRoles& roles, DrawNumbers& numbers) {
-    const hn::ScalableTag<uint32_t> du;
     const TexelDimensions& texel = negative ? kNegative : kPositive;
-    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(du)) {
-        const auto lane = hn::Iota(du, uint32_t(i));
-        const auto x = hn::Add(hn::Set(du, first.x), hn::And(lane, hn::Set(du, kWaveWidth - 1)));
-        const auto y = hn::Add(hn::Set(du, first.y), hn::ShiftRight<3>(lane));
-        static_assert(kWaveWidth == 1 << 3);
-        const auto state = random_state_v(du, first.seed, first.sample, x, y, hn::Set(du, first.surface));
-        const auto number = [&](Dimension dimension, WaveFloat& out)
-                                HWY_ATTR { hn::Store(unit_float_v(du, random_bits_v(du, state, dimension)), FloatTag(), out.lane + i); };
-        number(texel.x, numbers.x);
-        number(texel.y, numbers.y);
-        if (roles.sign) number(texel.sign, numbers.sign);
-        if (roles.level) number(Dimension::Level, numbers.level);
-        if (roles.probe) number(Dimension::Probe, numbers.probe);
-    }
+    white_lanes(first, texel.x, numbers.x);
+    white_lanes(first, texel.y, numbers.y);
+    if (roles.sign) white_lanes(first, texel.sign, numbers.sign);
+    if (roles.level) white_lanes(first, Dimension::Level, numbers.level);
+    if (roles.probe) white_lanes(first, Dimension::Probe, numbers.probe);
 }
 
 void find_noise(Noise noise, const RandomAddress& first, bool negative, const NumberRoles& roles, DrawNumbers& numbers) {

@@ -120,6 +120,7 @@ template <EdgeRule rule, class V>
 HWY_INLINE V drawn_texel(V index, V extent, bool near) {
     if constexpr (!repeats(rule)) return limit_index<rule>(index, extent);
     const hn::DFromV<V> d;
+    if constexpr (rule == EdgeRule::RepeatBits) return hn::And(index, hn::Sub(extent, hn::Set(d, 1)));
     const V period = rule == EdgeRule::MirroredRepeat ? hn::Add(extent, extent) : extent;
     if (!near) return fold_period<rule>(modulo_period(index, period), period);
     // Of a single texel the index may be more than two periods off.
@@ -140,7 +141,7 @@ HWY_NOINLINE WaveMask draw_placed_as(const Kernel& kernel, const WaveFloat& coor
         const auto extent = look_up_level(di, extents, hn::Load(di, level.lane + i));
         hn::Vec<FloatTag> integer, remainder;
         locate<rule>(coordinate, reading, hn::ConvertTo(d, extent), i, integer, remainder);
-        auto index = hn::ConvertTo(di, hn::Add(integer, place(remainder, hn::Load(d, number.lane + i))));
+        auto index = small_to_int(hn::Add(integer, place(remainder, hn::Load(d, number.lane + i))));
         if constexpr (rule == EdgeRule::CubeEdge) {
             // One texel never leaves the face: a coordinate of 1 belongs to the last.
             if (kernel.kind == KernelKind::Nearest) index = limit_index<EdgeRule::ClampToEdge>(index, extent);
@@ -165,22 +166,44 @@ struct WeighedPlace {
     HWY_INLINE FloatVec operator()(FloatVec remainder, FloatVec number) const {
         return with_fixed_weights(kernel, remainder, [&](const auto& weight, FloatVec first) HWY_ATTR {
             const FloatTag d;
-            auto before = hn::Zero(d), tap = hn::Zero(d);
-            float k = 0;
-            for (const FloatVec& one : weight) {
-                tap = hn::IfThenElse(hn::And(one > hn::Zero(d), number >= before), hn::Set(d, k), tap);
-                before = hn::Add(before, one);
-                ++k;
+            const auto one = hn::Set(d, 1.0f);
+            auto before = weight[0], texel = first;
+            constexpr size_t last = std::extent_v<std::remove_reference_t<decltype(weight)>> - 1;
+            for (size_t k = 1; k <= last; ++k) {
+                auto beyond = number >= before;
+                // Where a tap weighs nothing the sum does not grow; but rounding may leave the sum of all but the last below 1.
+                if (k == last) beyond = hn::And(beyond, weight[last] >= hn::Set(d, kLeastWeight));
+                texel = hn::IfThenElse(beyond, hn::Add(texel, one), texel);
+                before = hn::Add(before, weight[k]);
             }
-            return hn::Add(first, tap);
+            return texel;
         });
+    }
+};
+
+/// The same of the cubic B-spline, whose weights sum to polynomials of the coordinate's place f between two centres: (1-f)^3/6, then
+/// 5/6 - f/2 - f^2/2 + f^3/3, then 1 - f^3/6; each to 2^-23.
+struct BSplinePlace {
+    const Kernel& kernel;
+    HWY_INLINE FloatVec operator()(FloatVec remainder, FloatVec number) const {
+        const FloatTag d;
+        const auto set = [&](float value) HWY_ATTR { return hn::Set(d, value); };
+        const auto one = set(1.0f), half = set(0.5f);
+        const auto f = hn::Min(hn::Max(hn::Add(remainder, half), hn::Zero(d)), set(1 - 0x1p-24f)), rest = hn::Sub(one, f);
+        const auto first = hn::Mul(hn::Mul(rest, rest), hn::Mul(rest, set(1.0f / 6)));
+        const auto square = fused_multiply_add(f, fused_multiply_add(f, set(1.0f / 3), set(-0.5f)), set(-0.5f));
+        const auto second = fused_multiply_add(f, square, set(5.0f / 6));
+        const auto third = fused_negative_multiply_add(hn::Mul(f, f), hn::Mul(f, set(1.0f / 6)), one);
+        auto texel = set(-2.0f);
+        for (const auto& before : {first, second, third}) texel = hn::IfThenElse(number >= before, hn::Add(texel, one), texel);
+        return texel;
     }
 };
 
 template <class Place>
 HWY_INLINE WaveMask draw_placed(const Place& place, EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
                                 const WaveInt& level, const CoordinateReading& reading, const WaveFloat& number, WaveInt& drawn) {
-    return with_rule(rule, [&](auto constant) HWY_ATTR {
+    return with_rule(rule, extents, [&](auto constant) HWY_ATTR {
         return draw_placed_as<decltype(constant)::value>(place.kernel, coordinate, extents, level, reading, number, place, drawn);
     });
 }

@@ -139,6 +139,10 @@ HWY_NOINLINE inline void draw_place(const DrawnLookup& lookup, const DrawNumbers
     } else {
         choose_levels(*lookup.levels, sampler, *lookup.at, place.choice, nullptr);
     }
+    if (!place.choice.mixes) {
+        place.level = place.choice.finer;
+        return;
+    }
     draw_levels(place.choice, numbers.level, place.level);
 }
 

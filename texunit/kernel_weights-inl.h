@@ -220,45 +220,41 @@ HWY_INLINE V gaussian_point_weights(float sigma, int taps, V remainder, V before
     return hn::Add(before, first);
 }
 
-/// The kernels of a fixed number of taps, in registers: use(weight, first) with an array of their weights, those below kLeastWeight 0, and
-/// the texel of the first relative to the coordinate's integer part. `remainder` is the other part (scale_coordinate).
+/// The kernels of a fixed number of taps, in registers: use(weight, first) with an array of their weights and the texel of the first
+/// relative to the coordinate's integer part. `remainder` is the other part (scale_coordinate).
 template <class V, class Use>
 HWY_INLINE auto with_fixed_weights(const Kernel& kernel, V remainder, const Use& use) {
     const hn::DFromV<V> d;
     V before, fraction;
     split_between_centres(remainder, before, fraction);
-    const auto pass = [&](auto& weight, V first) HWY_ATTR {
-        for (V& one : weight) one = hn::IfThenElseZero(hn::Abs(one) >= hn::Set(d, kLeastWeight), one);
-        return use(weight, first);
-    };
     const auto mitchell = [&](double b, double c) HWY_ATTR {
         V weight[4];
         const V first = mitchell_weights(b, c, fraction, weight);
-        return pass(weight, hn::Add(before, first));
+        return use(weight, hn::Add(before, first));
     };
     switch (kernel.kind) {
         case KernelKind::Nearest: {
             V weight[1] = {hn::Set(d, 1.0f)};
-            return pass(weight, nearest_texel(remainder));
+            return use(weight, nearest_texel(remainder));
         }
         case KernelKind::Bilinear: {
             V weight[2] = {hn::Sub(hn::Set(d, 1.0f), fraction), fraction};
-            return pass(weight, before);
+            return use(weight, before);
         }
         case KernelKind::Quadratic: {
             V weight[3];
             const V first = quadratic_weights(fraction, weight);
-            return pass(weight, hn::Add(before, first));
+            return use(weight, hn::Add(before, first));
         }
         case KernelKind::Lanczos2: {
             V weight[4];
             const V first = lanczos_weights<2>(fraction, weight);
-            return pass(weight, hn::Add(before, first));
+            return use(weight, hn::Add(before, first));
         }
         case KernelKind::Lanczos3: {
             V weight[6];
             const V first = lanczos_weights<3>(fraction, weight);
-            return pass(weight, hn::Add(before, first));
+            return use(weight, hn::Add(before, first));
         }
         case KernelKind::BSpline: return mitchell(1, 0);
         case KernelKind::CatmullRom: return mitchell(0, 0.5);
@@ -284,7 +280,7 @@ HWY_INLINE V kernel_weights(const Kernel& kernel, V remainder, float* weights, s
     return with_fixed_weights(kernel, remainder, [&](const auto& weight, V first) HWY_ATTR {
         float* to = weights;
         for (const V& one : weight) {
-            hn::Store(one, d, to);
+            hn::Store(hn::IfThenElseZero(hn::Abs(one) >= hn::Set(d, kLeastWeight), one), d, to);
             to += stride;
         }
         return first;

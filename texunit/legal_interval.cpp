@@ -52,25 +52,6 @@ bool is_open(const Reading& reading, const LegalPlace& place) {
     return reading.patches.is_open(place, int(std::clamp(std::floor(first), 0.0, double(reading.texture.shape.levels - 1))));
 }
 
-/// All colours of one probe.
-void search_one(const Reading& reading, const Kernel& kernel, Range lod, ColourSearch& search) {
-    for_levels(
-        reading.sampler.mip, reading.texture.shape.levels, lod,
-        [&](int level) {
-            for (const ColourPatch& patch : reading.patches.at(reading.place, kernel, level)) search.visit(patch);
-        },
-        [&](int level, Range share) {
-            const auto finer = reading.patches.at(reading.place, kernel, level);
-            const auto coarser = reading.patches.at(reading.place, kernel, level + 1);
-            for (const auto effort : {ColourSearch::Effort::Descent, ColourSearch::Effort::Whole}) {
-                for (const ColourPatch& patch : finer) {
-                    for (const ColourPatch& second : coarser) search.visit(patch, second, share, effort);
-                }
-                if (search.excess() <= 1) return;
-            }
-        });
-}
-
 /// The closest of sums of probes.
 struct HullSearch {
     const Colour& wanted;
@@ -93,6 +74,35 @@ struct HullSearch {
         for (size_t c = 0; c < 4; ++c) closest[c] = std::clamp(wanted[c], low[c], high[c]);
     }
 };
+
+/// Pairs of patches in two levels that are searched one by one. Where a coordinate is so uncertain that there are more, their hulls judge,
+/// which hold every legal colour and a little more.
+constexpr size_t kMostPairs = 1 << 12;
+
+/// All colours of one probe.
+void search_one(const Reading& reading, const Kernel& kernel, Range lod, ColourSearch& search, HullSearch& hulls) {
+    for_levels(
+        reading.sampler.mip, reading.texture.shape.levels, lod,
+        [&](int level) {
+            for (const ColourPatch& patch : reading.patches.at(reading.place, kernel, level)) search.visit(patch);
+        },
+        [&](int level, Range share) {
+            const auto finer = reading.patches.at(reading.place, kernel, level);
+            const auto coarser = reading.patches.at(reading.place, kernel, level + 1);
+            if (finer.size() * coarser.size() > kMostPairs) {
+                ColourHull finer_hull, coarser_hull;
+                finer_hull.add(1, finer);
+                coarser_hull.add(1, coarser);
+                return hulls.visit(finer_hull, coarser_hull, share);
+            }
+            for (const auto effort : {ColourSearch::Effort::Descent, ColourSearch::Effort::Whole}) {
+                for (const ColourPatch& patch : finer) {
+                    for (const ColourPatch& second : coarser) search.visit(patch, second, share, effort);
+                }
+                if (search.excess() <= 1) return;
+            }
+        });
+}
 
 /// Where probe i of a line may lie.
 LegalPlace probe_place(const Reading& reading, double place_on_axis) {
@@ -152,7 +162,7 @@ LegalVerdict judge_suspected(const JudgedTexture& texture, const SamplerState& s
             open = open || is_open(reading, probe_place(reading, outermost));
             if (open) break;
             const auto filter = [&](const Kernel& kernel, Range lod) {
-                if (line.probes == 1) return search_one(reading, kernel, lod, search);
+                if (line.probes == 1) return search_one(reading, kernel, lod, search, hulls);
                 search_probes(reading, kernel, lod, hulls);
             };
             if (*line.magnified == *line.minified) {

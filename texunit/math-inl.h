@@ -105,6 +105,15 @@ HWY_INLINE V round_small(V v) {
     return hn::Sub(hn::Add(v, shifter), shifter);
 }
 
+/// An integer |v| <= 2^22 as such: its bits after the same addition.
+template <class V>
+HWY_INLINE auto small_to_int(V v) {
+    const hn::DFromV<V> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const auto bits = hn::BitCast(di, hn::Add(v, hn::Set(d, 0x1.8p23f)));
+    return hn::Sub(bits, hn::Set(di, 0x4B400000));
+}
+
 /// log2 of positive normal `x` as integer + fraction, 0 <= fraction < 1 up to rounding, fraction exact to 2^-23. Plain products and sums.
 template <class V, class VI>
 HWY_INLINE void split_log2(V x, VI& integer, V& fraction) {

@@ -45,26 +45,17 @@ HWY_INLINE NoiseVector scramble_reversed_v(NoiseVector bits, NoiseVector seed) {
     return hn::Xor(bits, hn::Mul(bits, noise_set(0x53A22864u)));
 }
 
-/// Numbers without relation.
-struct WhiteSource {
-    const RandomAddress& first;
-    Dimension second;
-
-    HWY_INLINE NoiseVector of(NoiseVector x, NoiseVector y, Dimension dimension) const {
-        return random_bits_v(NoiseTag(), first.seed, first.sample, x, y, noise_set(first.surface), dimension);
-    }
-    HWY_INLINE NoiseVector one(NoiseVector x, NoiseVector y) const { return of(x, y, first.dimension); }
-    HWY_INLINE void pair(NoiseVector x, NoiseVector y, NoiseVector& a, NoiseVector& b) const {
-        a = of(x, y, first.dimension), b = of(x, y, second);
-    }
-};
+/// The state that all pixels share at one sample, or for all samples at number 0.
+HWY_INLINE uint32_t shared_state(const RandomAddress& first, Dimension dimension, uint32_t sample) {
+    return random_state(first.seed, sample, first.surface, dimension);
+}
 
 /// The first two dimensions of Sobol's sequence, their order and their values scrambled for each pixel by keys of its own.
 struct SobolSource {
     explicit SobolSource(const RandomAddress& address) : first(address), reversed_sample(reverse_bits(address.sample)) {}
 
     HWY_INLINE NoiseVector key_of(NoiseVector x, NoiseVector y) const {
-        return random_bits_v(NoiseTag(), first.seed, 0, x, y, noise_set(first.surface), first.dimension);
+        return random_bits_v(shared_state(first, first.dimension, 0), x, y);
     }
     /// The number in the sequence. Its bits are those of the first dimension's number reversed.
     HWY_INLINE NoiseVector index(NoiseVector key) const { return reverse_bits_v(scramble_reversed_v(noise_set(reversed_sample), key)); }
@@ -105,7 +96,7 @@ struct R2Source {
     Dimension second;
 
     HWY_INLINE NoiseVector of(NoiseVector x, NoiseVector y, Dimension dimension) const {
-        const auto start = random_bits_v(NoiseTag(), first.seed, 0, x, y, noise_set(first.surface), dimension);
+        const auto start = random_bits_v(shared_state(first, dimension, 0), x, y);
         return hn::Add(start, noise_set(kronecker_offset(first, dimension)));
     }
     HWY_INLINE NoiseVector one(NoiseVector x, NoiseVector y) const { return of(x, y, first.dimension); }
@@ -186,31 +177,29 @@ template <class Source>
 HWY_INLINE void store_numbers(const RandomAddress& first, const Source& source, WaveFloat& numbers) {
     const NoiseTag d;
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto lane = hn::Iota(d, uint32_t(i));
-        static_assert(kWaveWidth == 1 << 3);
-        const auto x = hn::Add(noise_set(first.x), hn::And(lane, noise_set(kWaveWidth - 1)));
-        const auto y = hn::Add(noise_set(first.y), hn::ShiftRight<3>(lane));
-        store_number(source.one(x, y), i, numbers);
+        store_number(source.one(columns_v(d, first.x, i), rows_v(d, first.y, i)), i, numbers);
     }
 }
 template <class Source>
 HWY_INLINE void store_pairs(const RandomAddress& first, const Source& source, WaveFloat& a, WaveFloat& b) {
     const NoiseTag d;
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto lane = hn::Iota(d, uint32_t(i));
-        const auto x = hn::Add(noise_set(first.x), hn::And(lane, noise_set(kWaveWidth - 1)));
-        const auto y = hn::Add(noise_set(first.y), hn::ShiftRight<3>(lane));
         auto bits_a = hn::Zero(d), bits_b = hn::Zero(d);
-        source.pair(x, y, bits_a, bits_b);
+        source.pair(columns_v(d, first.x, i), rows_v(d, first.y, i), bits_a, bits_b);
         store_number(bits_a, i, a);
         store_number(bits_b, i, b);
     }
 }
 
+/// Numbers without relation.
+HWY_INLINE void white_lanes(const RandomAddress& first, Dimension dimension, WaveFloat& numbers) {
+    random_wave(shared_state(first, dimension, first.sample), first.x, first.y, numbers);
+}
+
 /// noise_wave and noise_pair_wave for code that is compiled for this instruction set.
 HWY_INLINE void noise_lanes(Noise noise, const RandomAddress& first, WaveFloat& numbers) {
     switch (noise) {
-        case Noise::White: return store_numbers(first, WhiteSource{first, first.dimension}, numbers);
+        case Noise::White: return white_lanes(first, first.dimension, numbers);
         case Noise::Sobol: return store_numbers(first, SobolSource(first), numbers);
         case Noise::R2: return store_numbers(first, R2Source{first, first.dimension}, numbers);
         case Noise::Blue: return store_numbers(first, BlueSource(first, first.dimension), numbers);
@@ -219,7 +208,7 @@ HWY_INLINE void noise_lanes(Noise noise, const RandomAddress& first, WaveFloat& 
 }
 HWY_INLINE void noise_pair_lanes(Noise noise, const RandomAddress& first, Dimension second, WaveFloat& a, WaveFloat& b) {
     switch (noise) {
-        case Noise::White: return store_pairs(first, WhiteSource{first, second}, a, b);
+        case Noise::White: white_lanes(first, first.dimension, a); return white_lanes(first, second, b);
         case Noise::Sobol: return store_pairs(first, SobolSource(first), a, b);
         case Noise::R2: return store_pairs(first, R2Source{first, second}, a, b);
         case Noise::Blue: return store_pairs(first, BlueSource(first, second), a, b);

@@ -29,7 +29,7 @@ namespace {
 constexpr std::array kNoises = {
     NoiseInfo{Noise::White, "white", "hashed numbers, each unrelated to every other"},
     NoiseInfo{Noise::Sobol, "sobol", "Sobol's sequence, Owen-scrambled for each pixel: even over any aligned 2^k samples"},
-    NoiseInfo{Noise::R2, "r2", "Roberts' R2 and golden-ratio sequences, shifted for each pixel: even over any number of samples"},
+    NoiseInfo{Noise::R2, "r2", "Kronecker sequences like Roberts' R2, shifted for each pixel: even over any number of samples"},
     NoiseInfo{Noise::Blue, "blue", "a mask of blue noise that moves by r2's steps: even over neighbouring pixels, and over samples"},
     NoiseInfo{Noise::Stbn, "stbn", "spatiotemporal blue noise: even over neighbouring pixels and over successive samples, anew after 32"}};
 

@@ -14,8 +14,8 @@ namespace rawtexel::texunit {
 enum class Noise : uint8_t {
     White,  ///< random_float of the address
     Sobol,  ///< (0, 2)-sequences, shuffled and Owen-scrambled for each pixel and dimension (Burley 2020): any aligned 2^k samples are a net
-    R2,     ///< Kronecker sequences, shifted for each pixel and dimension: Roberts' R2 for TapX and TapY, the golden ratio for Level
-    Blue,   ///< a mask of spatial blue noise for the first sample, to which later samples add the steps of R2
+    R2,     ///< Kronecker sequences, shifted for each pixel and dimension, in the manner of Roberts' R2
+    Blue,   ///< a mask of spatial blue noise for the first sample, to which later samples add the steps of r2
     Stbn,   ///< spatiotemporal blue noise (Wolfe et al. 2022), masks of 32 samples, placed anew after each 32
 };
 
@@ -34,7 +34,7 @@ std::optional<Noise> parse_noise(std::string_view text);
 void noise_wave(Noise noise, const RandomAddress& first, WaveFloat& numbers);
 
 /// The numbers of two dimensions that are used together, such as TapX and TapY. `a` are those of noise_wave for first.dimension. Where the
-/// noise can it makes the points (a, b) even over the unit square: (0, 2)-nets of sobol, the R2 sequence, masks of pairs for blue and stbn.
+/// noise can it makes the points (a, b) even over the unit square: (0, 2)-nets of sobol, Kronecker pairs of r2, masks of pairs for blue and stbn.
 void noise_pair_wave(Noise noise, const RandomAddress& first, Dimension second, WaveFloat& a, WaveFloat& b);
 
 }  // namespace rawtexel::texunit

@@ -26,13 +26,15 @@ constexpr uint32_t scramble_reversed(uint32_t bits, uint32_t seed) {
     return bits ^ bits * 0x53A22864u;
 }
 
-/// Steps of the Kronecker sequences n*step mod 1 in units of 2^-32, by dimension. TapX and TapY have Roberts' R2 (2018, "The Unreasonable
-/// Effectiveness of Quasirandom Sequences"): 1/g and 1/g^2 with g^3 = g + 1. Level has the inverse golden ratio. The others were searched
-/// for: alone they are badly approximable (q*|q*step| >= 0.19 for q to 65536, |x| being the distance from the nearest integer), and so are
-/// any two (|j*k|*|j*step + k*other| >= 0.0028 for j, k to 32). The numbers of two dimensions thus fill the square.
+/// Steps of the Kronecker sequences n*step mod 1 in units of 2^-32, by dimension. PixelX and PixelY have Roberts' R2 (2018, "The
+/// Unreasonable Effectiveness of Quasirandom Sequences"): 1/g and 1/g^2 with g^3 = g + 1, as the sub-pixel offsets of all noises do. Level
+/// has the inverse golden ratio. The others were searched for: alone they are badly approximable (q*|q*step| >= 0.19 for q to 4096, |x|
+/// being the distance from the nearest integer), and so are any two (|j*k|*|j*step + k*other| >= 0.0028 for j, k to 32). The numbers of two
+/// dimensions thus fill the square. TapX and TapY fill it as evenly as R2 does, and with the sub-pixel offsets the four-dimensional cube:
+/// were their steps R2's, a pixel's place would decide its tap, and no number of samples would bring the filter's mean.
 inline constexpr std::array<uint32_t, 16> kKroneckerSteps = {
-    0xC838009Bu, 0x3C063AD1u,  // PixelX, PixelY
-    3242174889u, 2447445413u,  // TapX, TapY
+    3242174889u, 2447445413u,  // PixelX, PixelY
+    0x381124E3u, 0x69A03383u,  // TapX, TapY
     0x6B91306Bu,               // TapZ
     2654435769u,               // Level
     0xA4103207u,               // Probe

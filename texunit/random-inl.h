@@ -1,5 +1,6 @@
-// The vector form of texunit/random.h: one address per lane, the same bits.
+// The vector form of texunit/random.h: the numbers of a wave's pixels, the same bits.
 #include "texunit/random.h"
+#include "texunit/wave.h"
 
 #include <hwy/highway.h>
 
@@ -24,23 +25,10 @@ HWY_INLINE V mix_bits_v(V bits) {
     return hn::Xor(bits, hn::ShiftRight<16>(bits));
 }
 
-/// What all dimensions of a lane's sample and surface share. `D` is a tag of uint32_t; seed and sample are the wave's.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V random_state_v(D d, uint32_t seed, uint32_t sample, V x, V y, V surface) {
-    const uint32_t start = mix_bits(mix_bits(kRandomStart ^ seed) ^ sample);
-    V state = mix_bits_v(hn::Xor(hn::Set(d, start), x));
-    state = mix_bits_v(hn::Xor(state, y));
-    return mix_bits_v(hn::Xor(state, surface));
-}
-
-/// 32 well-mixed bits a lane for one role.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V random_bits_v(D d, V state, Dimension dimension) {
-    return mix_bits_v(mix_bits_v(hn::Xor(state, hn::Set(d, (uint32_t(dimension) + 1) * kRandomStart))));
-}
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V random_bits_v(D d, uint32_t seed, uint32_t sample, V x, V y, V surface, Dimension dimension) {
-    return random_bits_v(d, random_state_v(d, seed, sample, x, y, surface), dimension);
+/// 32 well-mixed bits a lane, from a state that all lanes share (random_state).
+template <class V>
+HWY_INLINE V random_bits_v(uint32_t state, V x, V y) {
+    return mix_bits_v(hn::Xor(mix_bits_v(hn::Xor(hn::Set(hn::DFromV<V>(), state), x)), y));
 }
 
 /// In [0, 1): the top 24 bits times 2^-24.
@@ -49,6 +37,30 @@ HWY_INLINE hn::Vec<hn::Rebind<float, D>> unit_float_v(D, V bits) {
     const hn::Rebind<float, D> df;
     const hn::Rebind<int32_t, D> di;
     return hn::Mul(hn::ConvertTo(df, hn::BitCast(di, hn::ShiftRight<8>(bits))), hn::Set(df, 0x1p-24f));
+}
+
+/// Columns and rows of lanes i .. of a wave whose first pixel is (x, y).
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V columns_v(D d, uint32_t x, size_t i) {
+    return hn::Add(hn::Set(d, x), hn::And(hn::Iota(d, uint32_t(i)), hn::Set(d, kWaveWidth - 1)));
+}
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V rows_v(D d, uint32_t y, size_t i) {
+    static_assert(kWaveWidth == 1 << 3);
+    return hn::Add(hn::Set(d, y), hn::ShiftRight<3>(hn::Iota(d, uint32_t(i))));
+}
+
+/// The numbers of a wave whose first pixel is (x, y).
+HWY_INLINE void random_wave(uint32_t state, uint32_t x, uint32_t y, WaveFloat& numbers) {
+    const hn::ScalableTag<uint32_t> d;
+    const auto of_columns = [&](size_t i) HWY_ATTR { return mix_bits_v(hn::Xor(hn::Set(d, state), columns_v(d, x, i))); };
+    // Vectors of whole rows all have the same columns.
+    constexpr bool whole_rows = hn::MaxLanes(hn::ScalableTag<uint32_t>()) % kWaveWidth == 0;
+    const auto first = of_columns(0);
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        const auto bits = mix_bits_v(hn::Xor(whole_rows ? first : of_columns(i), rows_v(d, y, i)));
+        hn::Store(unit_float_v(d, bits), hn::Rebind<float, decltype(d)>(), numbers.lane + i);
+    }
 }
 
 }  // namespace HWY_NAMESPACE

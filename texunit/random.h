@@ -36,11 +36,11 @@ struct RandomAddress {
     uint32_t seed = 0;
 };
 
-// How: the words of the address are absorbed one after the other, seed first and dimension last, each by an exclusive or and Wellons'
-// two-round multiply-xorshift permutation `lowbias32` (exact bias 0.17 of 1, https://github.com/skeeto/hash-prospector). Each step is a
-// bijection of the 32-bit state, so addresses that differ in one word never collide. The dimension is spread by the golden ratio first,
-// since its values are few and small, and permuted twice: its numbers all start from the same state. The vector form (texunit/random-inl.h)
-// gives the same bits.
+// How: the words of the address are absorbed one after the other, seed, sample, surface, dimension, x and y, each by an exclusive or and
+// Wellons' two-round multiply-xorshift permutation `lowbias32` (exact bias 0.17 of 1, https://github.com/skeeto/hash-prospector). Each step
+// is a bijection of the 32-bit state, so addresses that differ in one word never collide. The pixel comes last, so that a wave shares all
+// but the last two steps. The dimension is spread by the golden ratio first, since its values are few and small. The vector form
+// (texunit/random-inl.h) gives the same bits.
 
 constexpr uint32_t kRandomStart = 0x9E3779B9u;  ///< 2^32 / golden ratio: keeps the all-zero address off the permutation's fixed point 0
 
@@ -50,22 +50,20 @@ constexpr uint32_t mix_bits(uint32_t bits) {
     return bits ^ bits >> 16;
 }
 
-/// The state that all dimensions of one sample and surface of a pixel share.
-constexpr uint32_t random_state(const RandomAddress& address) {
-    uint32_t state = mix_bits(kRandomStart ^ address.seed);
-    state = mix_bits(state ^ address.sample);
-    state = mix_bits(state ^ address.x);
-    state = mix_bits(state ^ address.y);
-    return mix_bits(state ^ address.surface);
-}
+/// A dimension as it is absorbed.
+constexpr uint32_t spread(Dimension dimension) { return (uint32_t(dimension) + 1) * kRandomStart; }
 
-/// 32 well-mixed bits for one role.
-constexpr uint32_t random_bits(uint32_t state, Dimension dimension) {
-    return mix_bits(mix_bits(state ^ (uint32_t(dimension) + 1) * kRandomStart));
+/// The state that all pixels share.
+constexpr uint32_t random_state(uint32_t seed, uint32_t sample, uint32_t surface, Dimension dimension) {
+    const uint32_t state = mix_bits(mix_bits(kRandomStart ^ seed) ^ sample);
+    return mix_bits(mix_bits(state ^ surface) ^ spread(dimension));
 }
 
 /// 32 well-mixed bits.
-constexpr uint32_t random_bits(const RandomAddress& address) { return random_bits(random_state(address), address.dimension); }
+constexpr uint32_t random_bits(const RandomAddress& address) {
+    const uint32_t state = random_state(address.seed, address.sample, address.surface, address.dimension);
+    return mix_bits(mix_bits(state ^ address.x) ^ address.y);
+}
 
 /// In [0, 1): the top 24 bits times 2^-24. Never 1.
 constexpr float unit_float(uint32_t bits) { return float(bits >> 8) * 0x1p-24f; }

@@ -7,6 +7,8 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <type_traits>
 
 // Included once per instruction set (highway's guard for -inl.h files).
@@ -34,8 +36,9 @@ struct WavePosition {
     bool cube() const { return u_rest != nullptr; }
 };
 
-/// What an index outside the texture means: a Wrap, or for cube maps a texel of another face.
-enum class EdgeRule { Repeat, MirroredRepeat, ClampToEdge, ClampToBorder, MirrorOnce, CubeEdge };
+/// What an index outside the texture means: a Wrap, or for cube maps a texel of another face. RepeatBits is Repeat where every level's
+/// extent is a power of two, so that wrapping an index keeps its lower bits.
+enum class EdgeRule { Repeat, MirroredRepeat, ClampToEdge, ClampToBorder, MirrorOnce, CubeEdge, RepeatBits };
 constexpr EdgeRule edge_rule(Wrap wrap) { return EdgeRule(wrap); }
 static_assert(edge_rule(Wrap::Repeat) == EdgeRule::Repeat && edge_rule(Wrap::MirrorOnce) == EdgeRule::MirrorOnce);
 
@@ -61,7 +64,7 @@ template <EdgeRule rule, class V>
 HWY_INLINE V reduce_range(V coordinate) {
     const hn::DFromV<V> d;
     const V u = hn::IfThenElseZero(hn::IsFinite(coordinate), coordinate);
-    if constexpr (rule == EdgeRule::Repeat) return hn::Sub(u, hn::Trunc(u));
+    if constexpr (rule == EdgeRule::Repeat || rule == EdgeRule::RepeatBits) return hn::Sub(u, hn::Trunc(u));
     if constexpr (rule == EdgeRule::MirroredRepeat) {
         return hn::Sub(u, hn::Mul(hn::Set(d, 2.0f), hn::Trunc(hn::Mul(u, hn::Set(d, 0.5f)))));
     }
@@ -132,12 +135,14 @@ HWY_INLINE V wrap_period(V i, V period) {
     return hn::IfThenElse(i < period, i, hn::Sub(i, period));
 }
 
-constexpr bool repeats(EdgeRule rule) { return rule == EdgeRule::Repeat || rule == EdgeRule::MirroredRepeat; }
+constexpr bool repeats(EdgeRule rule) {
+    return rule == EdgeRule::Repeat || rule == EdgeRule::MirroredRepeat || rule == EdgeRule::RepeatBits;
+}
 
 /// Texel of `place` within a period of a repeating mode: the second half of a mirrored period runs backwards.
 template <EdgeRule rule, class V>
 HWY_INLINE V fold_period(V place, V period) {
-    if constexpr (rule == EdgeRule::Repeat) return place;
+    if constexpr (rule != EdgeRule::MirroredRepeat) return place;
     return hn::Min(place, hn::Sub(hn::Sub(period, hn::Set(hn::DFromV<V>(), 1)), place));
 }
 
@@ -157,6 +162,11 @@ HWY_INLINE void wrap_indices(V i, V extent, V (&index)[W]) {
     const hn::DFromV<V> d;
     if constexpr (!repeats(rule)) {
         for (int k = 0; k < W; ++k) index[k] = limit_index<rule>(hn::Add(i, hn::Set(d, k)), extent);
+        return;
+    }
+    if constexpr (rule == EdgeRule::RepeatBits) {
+        const V last = hn::Sub(extent, hn::Set(d, 1));
+        for (int k = 0; k < W; ++k) index[k] = hn::And(hn::Add(i, hn::Set(d, k)), last);
         return;
     }
     const V period = rule == EdgeRule::MirroredRepeat ? hn::Add(extent, extent) : extent;
@@ -199,7 +209,7 @@ HWY_NOINLINE void select_axis_as(const WaveFloat& coordinate, const std::array<i
             hn::Store(hn::IfThenElse(single, zero, part), d, fraction.lane + i);
         }
 
-        auto start = hn::ConvertTo(di, hn::Add(integer, first));
+        auto start = small_to_int(hn::Add(integer, first));
         if constexpr (rule == EdgeRule::CubeEdge) {
             // One texel never leaves the face: a coordinate of 1 belongs to the last.
             const auto single = hn::RebindMask(di, W == 1 ? hn::FirstN(d, hn::Lanes(d)) : lanes_of(d, nearest, i));
@@ -222,9 +232,11 @@ HWY_NOINLINE void select_axis_as(const WaveFloat& coordinate, const std::array<i
     }
 }
 
-/// Calls `act` with the rule as a constant of the type std::integral_constant.
+/// Calls `act` with the rule for an axis of these extents as a constant of the type std::integral_constant.
 template <class Act>
-HWY_INLINE auto with_rule(EdgeRule rule, const Act& act) {
+HWY_INLINE auto with_rule(EdgeRule rule, const std::array<int32_t, 16>& extents, const Act& act) {
+    if (rule == EdgeRule::Repeat && std::has_single_bit(uint32_t(extents[0])))
+        return act(std::integral_constant<EdgeRule, EdgeRule::RepeatBits>());
     switch (rule) {
         case EdgeRule::MirroredRepeat: return act(std::integral_constant<EdgeRule, EdgeRule::MirroredRepeat>());
         case EdgeRule::ClampToEdge: return act(std::integral_constant<EdgeRule, EdgeRule::ClampToEdge>());
@@ -240,7 +252,7 @@ template <int W>
 HWY_INLINE bool select_axis(EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents, const WaveInt& level,
                             WaveMask nearest, WaveInt (&index)[W], WaveFloat& fraction, const CoordinateReading& reading,
                             WaveMask (&outside)[W]) {
-    return with_rule(rule, [&](auto constant) HWY_ATTR {
+    return with_rule(rule, extents, [&](auto constant) HWY_ATTR {
         constexpr EdgeRule kRule = decltype(constant)::value;
         select_axis_as<kRule>(coordinate, extents, level, nearest, index, fraction, reading, outside);
         if constexpr (!can_leave(kRule)) return false;

@@ -49,7 +49,8 @@ HWY_INLINE void place_taps(hn::Vec<IntTag> start, hn::Vec<IntTag> extent, int co
     const IntTag di;
     const auto one = hn::Set(di, 1);
     const auto period = rule == EdgeRule::MirroredRepeat ? hn::Add(extent, extent) : extent;
-    auto place = repeats(rule) ? modulo_period(start, period) : start;
+    const auto last = hn::Sub(extent, one);
+    auto place = rule == EdgeRule::RepeatBits ? hn::And(start, last) : repeats(rule) ? modulo_period(start, period) : start;
     // The heaviest texel stands in for those of weight 0.
     auto heaviest = hn::Zero(d);
     auto stand_in = hn::Zero(di);
@@ -74,7 +75,11 @@ HWY_INLINE void place_taps(hn::Vec<IntTag> start, hn::Vec<IntTag> extent, int co
         hn::Store(texel, di, taps.texel[k].lane + i);
 
         place = hn::Add(place, one);
-        if constexpr (repeats(rule)) place = hn::IfThenElse(place < period, place, hn::Zero(di));
+        if constexpr (rule == EdgeRule::RepeatBits) {
+            place = hn::And(place, last);
+        } else if constexpr (repeats(rule)) {
+            place = hn::IfThenElse(place < period, place, hn::Zero(di));
+        }
     }
     for (int k = 0; k < count; ++k) {
         auto unread = hn::RebindMask(di, hn::Eq(hn::Load(d, taps.weight[k].lane + i), hn::Zero(d)));
@@ -115,7 +120,7 @@ HWY_NOINLINE void select_wide_axis_as(const Kernel& kernel, const WaveFloat& coo
         hn::Vec<FloatTag> integer, remainder;
         locate<rule>(coordinate, reading, hn::ConvertTo(d, extent), i, integer, remainder);
         const auto first = kernel_weights(kernel, remainder, taps.weight[0].lane + i, kWaveLanes);
-        place_taps<rule>(hn::ConvertTo(di, hn::Add(integer, first)), extent, count, i, taps, weighed);
+        place_taps<rule>(small_to_int(hn::Add(integer, first)), extent, count, i, taps, weighed);
     }
     drop_unweighed(weighed, count, taps);
     taps.leaves = std::any_of(taps.outside, taps.outside + taps.count, [](WaveMask lanes) { return lanes != 0; });
@@ -124,8 +129,9 @@ HWY_NOINLINE void select_wide_axis_as(const Kernel& kernel, const WaveFloat& coo
 /// The taps of `kernel` along an axis, for all lanes.
 HWY_INLINE void select_wide_axis(const Kernel& kernel, EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
                                  const WaveInt& level, const CoordinateReading& reading, AxisTaps& taps) {
-    with_rule(rule, [&](auto constant)
-                        HWY_ATTR { select_wide_axis_as<decltype(constant)::value>(kernel, coordinate, extents, level, reading, taps); });
+    with_rule(rule, extents, [&](auto constant) HWY_ATTR {
+        select_wide_axis_as<decltype(constant)::value>(kernel, coordinate, extents, level, reading, taps);
+    });
 }
 
 /// What a border of ClampToBorder takes along an axis: the weight of the taps outside, and of those inside.

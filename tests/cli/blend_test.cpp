@@ -50,6 +50,14 @@ TEST(Blend, ADrawnPlaneDemandsExactlyAThird) {
     for (size_t i = 0; i < all.size(); ++i) EXPECT_EQ(planes[i], 3 * plane[i]);
 }
 
+TEST(Blend, DrawsNothingWhereNothingIsBlended) {
+    const TemporaryFolder folder;
+    for (const std::string scene : {"bumps", "layers", "triplanar"}) {
+        const test::Outcome outcome = run({"render", scene, "-o", folder / "a.png", "--size", "16x9", "--blend", "draw"});
+        EXPECT_EQ(outcome.code, scene == "bumps" ? kWrongUsage : kDone) << scene << outcome.err;
+    }
+}
+
 TEST(Blend, WordsThatAreNoneAreRefused) {
     for (const Words& words : {Words{"--blend", "some"}, Words{"--shadow-taps", "two"}}) {
         const TemporaryFolder folder;

@@ -125,11 +125,14 @@ TEST(RenderOptions, WhatHasNoEffectIsRefused) {
         {{"--ewa", "--lod-bias", "1"}, "--lod-bias: "},
         {{"--ewa", "--precision", "gpu"}, "--precision gpu: "},
         {{"--ewa", "--hybrid-bias", "1"}, "--hybrid-bias: "},
+        {{"--hybrid-bias", "1", "--mip", "none"}, "--hybrid-bias: --mip none reads level 0"},
+        {{"--footprint", "sample"}, "--footprint sample: one sample"},
         {{"--aniso", "16:0.25", "--lod-rule", "exact"}, "--lod-rule: --aniso N:S2 always takes the axes of the ellipse"},
         {{"--reference", "0.1", "--lod-rule", "d3d"}, "--reference: the truth leaves no choice to --aniso"},
     };
     for (const auto& [words, start] : cases) EXPECT_TRUE(error_of(words).starts_with(start)) << words[0] << ": " << error_of(words);
     EXPECT_EQ(error_of({"--aniso", "16", "--lod-rule", "exact"}), "");
+    EXPECT_EQ(error_of({"--footprint", "sample", "--spp", "2"}), "");
     EXPECT_EQ(error_of({"--ewa", "--estimator", "jitter", "--hybrid-bias", "1"}), "");
 }
 

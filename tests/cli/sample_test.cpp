@@ -111,7 +111,6 @@ TEST(Sample, TakesALevelOfDetailAsItIs) {
     EXPECT_EQ(weights("77", {}), (std::array<double, 5>{0, 0, 0, 0, 1}));
     EXPECT_EQ(weights("1.25", {"--lod-bias", "1.5"}), (std::array<double, 5>{0, 0, 0.25, 0.75, 0})) << "2.75";
     EXPECT_EQ(weights("1.25", {"--mip", "nearest"}), (std::array<double, 5>{0, 1, 0, 0, 0}));
-    EXPECT_EQ(weights("1.25", {"--mip", "none"}), (std::array<double, 5>{1, 0, 0, 0, 0}));
     EXPECT_EQ(weights("1.25", {"--max-lod", "0.5"}), (std::array<double, 5>{0.5, 0.5, 0, 0, 0}));
     EXPECT_EQ(weights("1.25", {"--min-lod", "3"}), (std::array<double, 5>{0, 0, 0, 1, 0}));
     EXPECT_EQ(weights("1.001", {"--precision", "gpu"}), (std::array<double, 5>{0, 1, 0, 0, 0})) << "to 1/256";
@@ -283,6 +282,8 @@ TEST(Sample, WrongUsageIsExitCode2) {
         {flat, {"--uv", "0,0", "--wrap", "clamp,repeat", "--border", "1,1,1,1"}, "--border without --wrap border"},
         {volume, {"--uvw", "0,0,0", "--wrap", "clamp", "--border", "1,1,1,1"}, "--border without --wrap border"},
         {flat, {"--uv", "0,0", "--wrap", "clamp,clamp,clamp"}, "is flat (allowed: S[,T])"},
+        {flat, {"--uv", "0,0", "--lod", "1", "--mip", "none"}, "--lod: --mip none reads level 0"},
+        {flat, {"--uv", "0,0", "--min-lod", "1", "--mip", "none"}, "--min-lod: --mip none reads level 0"},
         {flat, {"--uv", "0,0", "--lod", "1", "--lod-rule", "exact"}, "--lod and --lod-rule exclude each other"},
         {flat, {"--uv", "0,0", "--lod", "1", "--lod-rule", "d3d"}, "--lod and --lod-rule exclude each other"},
         {flat, {"--uv", "0,0", "--ewa", "--max-lod", "2"}, "--max-lod: --ewa reads level 0"},

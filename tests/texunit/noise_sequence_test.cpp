@@ -157,9 +157,9 @@ TEST(KroneckerSteps, AreBadlyApproximableAloneAndInPairs) {
     for (size_t i = 0; i < kKroneckerSteps.size(); ++i) {
         const uint32_t step = kKroneckerSteps[i];
         double alone = 1;
-        for (uint32_t q = 1; q <= 65536; ++q) alone = std::min(alone, q * distance_from_integer(q * step));
+        for (uint32_t q = 1; q <= 4096; ++q) alone = std::min(alone, q * distance_from_integer(q * step));
         // Those of R2 are chosen as a pair, whose merit is better.
-        const bool of_r2 = i == size_t(Dimension::TapX) || i == size_t(Dimension::TapY);
+        const bool of_r2 = i == size_t(Dimension::PixelX) || i == size_t(Dimension::PixelY);
         EXPECT_GE(alone, of_r2 ? 0.016 : 0.19) << "dimension " << i;
         least_alone = std::min(least_alone, alone);
         for (size_t other = 0; other < i; ++other) {
@@ -176,13 +176,40 @@ TEST(KroneckerSteps, AreBadlyApproximableAloneAndInPairs) {
     std::printf("merit alone %.3f, of pairs %.4f\n", least_alone, least_pair);
 }
 
-TEST(KroneckerSteps, OfTheTapsAreRobertsR2AndOfTheLevelIsTheGoldenRatio) {
+TEST(KroneckerSteps, OfThePixelAreRobertsR2AndOfTheLevelIsTheGoldenRatio) {
     const double g = 1.32471795724474602596, golden = (std::sqrt(5.0) - 1) / 2;
     // Rounded to odd numbers, so that 2^32 samples are all different.
-    EXPECT_NEAR(kKroneckerSteps[size_t(Dimension::TapX)], 0x1p32 / g, 1);
-    EXPECT_NEAR(kKroneckerSteps[size_t(Dimension::TapY)], 0x1p32 / (g * g), 1);
+    EXPECT_NEAR(kKroneckerSteps[size_t(Dimension::PixelX)], 0x1p32 / g, 1);
+    EXPECT_NEAR(kKroneckerSteps[size_t(Dimension::PixelY)], 0x1p32 / (g * g), 1);
     EXPECT_NEAR(kKroneckerSteps[size_t(Dimension::Level)], 0x1p32 * golden, 1);
     for (const uint32_t step : kKroneckerSteps) EXPECT_EQ(step % 2, 1u);
+}
+
+/// Least |j|*|k|*|l|*|m|*|j*PixelX + k*PixelY + l*TapX + m*TapY| over coefficients up to `most` that are not all 0, zeros counting as 1.
+double merit_with_pixels(int most) {
+    const auto at = [](Dimension dimension, int times) { return uint32_t(times) * kKroneckerSteps[size_t(dimension)]; };
+    double least = 1;
+    for (int j = 0; j <= most; ++j) {
+        for (int k = -most; k <= most; ++k) {
+            for (int l = -most; l <= most; ++l) {
+                for (int m = -most; m <= most; ++m) {
+                    if (j == 0 && k == 0 && l == 0 && m == 0) continue;
+                    const double size =
+                        double(std::max(1, j)) * std::max(1, std::abs(k)) * std::max(1, std::abs(l)) * std::max(1, std::abs(m));
+                    const uint32_t sum =
+                        at(Dimension::PixelX, j) + at(Dimension::PixelY, k) + at(Dimension::TapX, l) + at(Dimension::TapY, m);
+                    least = std::min(least, size * distance_from_integer(sum));
+                }
+            }
+        }
+    }
+    return least;
+}
+
+TEST(KroneckerSteps, OfATapAreUnrelatedToTheSubPixelOffsets) {
+    const double merit = merit_with_pixels(10);
+    std::printf("merit of a tap's two and a pixel's two %.5f\n", merit);
+    EXPECT_GE(merit, 0.0015);
 }
 
 /// The largest difference between the area of a box [0, x) x [0, y) and its share of the points, over corners at the points' coordinates.

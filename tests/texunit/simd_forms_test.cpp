@@ -50,15 +50,12 @@ void logarithm(const WaveFloat& x, WaveInt& integer, WaveFloat& fraction) {
     }
 }
 
-void numbers(const Wave<uint32_t>& x, const Wave<uint32_t>& y, const Wave<uint32_t>& surface, const RandomAddress& rest,
-             Wave<uint32_t>& bits, WaveFloat& unit) {
+void numbers(const RandomAddress& first, WaveFloat& wave, Wave<uint32_t>& bits) {
     const hn::ScalableTag<uint32_t> d;
-    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto random = random_bits_v(d, rest.seed, rest.sample, hn::Load(d, x.lane + i), hn::Load(d, y.lane + i),
-                                          hn::Load(d, surface.lane + i), rest.dimension);
-        hn::Store(random, d, bits.lane + i);
-        hn::Store(unit_float_v(d, random), FloatTag(), unit.lane + i);
-    }
+    const uint32_t state = random_state(first.seed, first.sample, first.surface, first.dimension);
+    random_wave(state, first.x, first.y, wave);
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d))
+        hn::Store(random_bits_v(state, columns_v(d, first.x, i), rows_v(d, first.y, i)), d, bits.lane + i);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -162,16 +159,20 @@ TEST_P(SimdForms, Log2IsGoodTo23Bits) {
 
 TEST_P(SimdForms, RandomNumbersAreTheScalarOnes) {
     for (uint32_t n = 0; n < 200; ++n) {
-        const RandomAddress rest{.sample = uint32_t(random_()), .dimension = Dimension(n % 12), .seed = n};
-        Wave<uint32_t> x, y, surface, bits;
-        WaveFloat unit_floats;
-        for (int i = 0; i < kWaveLanes; ++i) x[i] = uint32_t(random_()), y[i] = uint32_t(i), surface[i] = uint32_t(random_()) % 5;
-        HWY_DYNAMIC_DISPATCH(numbers)(x, y, surface, rest, bits, unit_floats);
+        const RandomAddress first{.x = uint32_t(random_()),
+                                  .y = uint32_t(random_()),
+                                  .sample = uint32_t(random_()),
+                                  .surface = uint32_t(random_()) % 5,
+                                  .dimension = Dimension(n % 12),
+                                  .seed = n};
+        Wave<uint32_t> bits;
+        WaveFloat wave;
+        HWY_DYNAMIC_DISPATCH(numbers)(first, wave, bits);
         for (int i = 0; i < kWaveLanes; ++i) {
-            RandomAddress address = rest;
-            address.x = x[i], address.y = y[i], address.surface = surface[i];
+            RandomAddress address = first;
+            address.x += uint32_t(i % kWaveWidth), address.y += uint32_t(i / kWaveWidth);
             ASSERT_EQ(bits[i], random_bits(address));
-            ASSERT_EQ(unit_floats[i], random_float(address));
+            ASSERT_EQ(wave[i], random_float(address));
         }
     }
 }
