@@ -19,7 +19,7 @@ Mesh ball(uint32_t material) {
     mesh.material = material;
     std::mt19937 random(material);
     const auto unit = [&] { return float(random() >> 8) * 0x1p-24f; };
-    constexpr uint32_t kRings = 40, kStride = kRings + 1;
+    constexpr uint32_t kRings = 24, kStride = kRings + 1;
     for (uint32_t j = 0; j <= kRings; ++j)
         for (uint32_t i = 0; i <= kRings; ++i) {
             const float turn = 6.2831853f * float(i % kRings) / float(kRings), rise = 3.1415927f * float(j) / float(kRings);
@@ -52,7 +52,7 @@ Scene balls_and_a_wall() {
     }
     scene.instances.back().world_from_object[3].x = 500.0f;  // out of view
     Mesh& wall = scene.meshes.emplace_back();
-    wall.positions = {{-4, -0.2f, -0.6f}, {-1, -0.2f, -0.6f}, {-1, 2, -0.6f}, {-4, 2, -0.6f}};
+    wall.positions = {{-4, -0.9f, -0.6f}, {0.5f, -0.9f, -0.6f}, {0.5f, 2, -0.6f}, {-4, 2, -0.6f}};
     wall.indices = {0, 1, 2, 0, 2, 3};
     scene.instances.push_back({uint32_t(scene.meshes.size()) - 1, glm::mat4(1.0f)});
     return scene;
