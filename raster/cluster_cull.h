@@ -14,7 +14,6 @@ struct ClusterView {
     bool outside = false;      ///< every triangle is outside the view volume, or beside all samples of the active tiles
     bool unclipped = false;    ///< every vertex is finite and inside of all planes that clip
     bool facing_away = false;  ///< every triangle that has an area once snapped is a back face; asks for `unclipped`
-    bool facing = false;       ///< likewise a front face
     float nearest = 1.0f;      ///< no depth of it is greater
     SampleBox box{};           ///< holds all of it once snapped; asks for `unclipped`
 };
@@ -24,7 +23,8 @@ class ClusterCull {
   public:
     ClusterCull(const Draw& draw, const FrameOptions& options, const TileGrid& grid);
 
-    ClusterView view(const Cluster& cluster) const;
+    /// `back_faces_matter`: whether to find out about `facing_away`.
+    ClusterView view(const Cluster& cluster, bool back_faces_matter) const;
 
   private:
     /// A linear form over the object's space: a*x + b*y + c*z + d.
@@ -35,17 +35,23 @@ class ClusterCull {
     struct Range {
         double low, high;
     };
-    /// Over the cluster's box, widened by more than rounding moves the vertices' own values.
-    static Range range_over(const Form& form, const Cluster& cluster);
+    /// The cluster's bounds by their middle.
+    struct Box {
+        glm::dvec3 middle, half;
+    };
+    /// Over the box, widened by more than rounding moves the vertices' own values.
+    static Range range_over(const Form& form, const Box& box);
     static Form combine(double p, const Form& f, double q, const Form& g);
     static SampleBox box_over(const Range& x, const Range& y, const Range& w);
-    void find_facing(const Cluster& cluster, const Range& w, ClusterView& view) const;
+    bool outside_samples(const Box& box) const;
+    bool faces_away(const Cluster& cluster, const Box& box, const Range& x, const Range& y, const Range& w) const;
 
-    Form x_, y_, z_, w_;  ///< homogeneous pixels, as ScreenVertex
+    Form x_, y_, z_, w_, before_near_;  ///< homogeneous pixels, as ScreenVertex
     std::array<Form, 4> beyond_samples_;
-    std::array<Form, 4> guard_;
+    SampleBox sample_box_;
     glm::dvec3 eye_;  ///< where x_, y_ and w_ vanish, in homogeneous object space
     double eye_w_;
+    double x_length_, y_length_, w_length_, eye_length_;  ///< of the slopes, and of the eye
     bool front_is_clockwise_;
 };
 

@@ -27,6 +27,7 @@ constexpr uint32_t kSeenClusters = 1024;  ///< looked at by one task
 constexpr size_t kFewestHideable = 128;   ///< clusters in view that make looking for occluders pay
 constexpr size_t kMostOccluders = 256;
 constexpr int kLeastShare = 8;              ///< an occluder has at least this part of the largest one's cells
+constexpr int64_t kLeastCover = 6;          ///< all of them have at least this part of the frame's
 constexpr int kFewestCells = 16;            ///< of an occluder
 constexpr uint64_t kMostBlocks = 1u << 20;  ///< that setup indices can name, but for the last
 
@@ -96,10 +97,10 @@ SeenClusters see_clusters(std::span<const Draw> draws, const FrameOptions& optio
             const Draw& draw = draws[draw_index];
             if (std::exchange(tested, draw_index) != draw_index) test.emplace(draw, options, grid);
             const Cluster& cluster = draw.clusters->clusters[number];
-            const ClusterView view = skips.clusters ? test->view(cluster) : ClusterView{};
+            const ClusterView view = skips.clusters ? test->view(cluster, draw.cull == CullMode::Back && skips.backface) : ClusterView{};
             uint64_t FrameCounts::*fate = nullptr;
             if (view.outside && skips.frustum) fate = &FrameCounts::culled_frustum;
-            if (view.facing_away && draw.cull == CullMode::Back && skips.backface) fate = &FrameCounts::culled_backface;
+            if (view.facing_away) fate = &FrameCounts::culled_backface;
             if (fate == nullptr) {
                 const CellRange cells = view.unclipped ? occlusion.cells_of(view.box) : CellRange{};
                 seen.list.push_back({draw_index, number, view.nearest, view.unclipped, cells});
@@ -135,6 +136,9 @@ void leave_out_occluded(std::span<const Draw> draws, OcclusionBuffer& occlusion,
         std::nth_element(occluders.begin(), occluders.begin() + kMostOccluders, occluders.end(), larger);
         occluders.resize(kMostOccluders);
     }
+    int64_t cells = 0;
+    for (const Occluder& o : occluders) cells += o.cells.count();
+    if (cells < occlusion.cell_count() / kLeastCover) return;
     occlusion.draw(draws, occluders);
 
     std::vector<uint8_t> hidden(seen.list.size());

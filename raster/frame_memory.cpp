@@ -65,10 +65,10 @@ FrameMemory::Slab FrameMemory::take(size_t bytes) {
     assert(bytes <= kSlabBytes);
     {
         const std::lock_guard lock(mutex_);
-        if (!open_.empty() && open_.back().bytes >= bytes) {
+        while (!open_.empty()) {
             const Slab slab = open_.back();
             open_.pop_back();
-            return slab;
+            if (slab.bytes >= bytes) return slab;  // what is too small now is so for all of a frame's tasks
         }
     }
     std::byte* const memory = new_slab();

@@ -45,6 +45,10 @@ class Builder {
             lower_ = glm::min(lower_, p);
             upper_ = glm::max(upper_, p);
         }
+        // The same for all axes, so that clusters are as wide as they are long.
+        const glm::dvec3 extent = glm::dvec3(upper_) - glm::dvec3(lower_);
+        const double longest = std::max({extent.x, extent.y, extent.z});
+        cells_per_unit_ = longest > 0 ? (1 << kCellBits) / longest : 0.0;
     }
 
     MeshClusters build() {
@@ -86,8 +90,7 @@ class Builder {
         if (!is_finite(middle)) return 0;
         uint32_t place = facing_of(corners.normal()) << (3 * kCellBits);
         for (int axis = 0; axis < 3; ++axis) {
-            const double extent = double(upper_[axis]) - double(lower_[axis]);
-            const double cell = extent > 0 ? (middle[axis] - double(lower_[axis])) / extent * (1 << kCellBits) : 0.0;
+            const double cell = (middle[axis] - double(lower_[axis])) * cells_per_unit_;
             place |= spread_bits(uint32_t(std::clamp(cell, 0.0, double((1 << kCellBits) - 1)))) << axis;
         }
         return place;
@@ -193,6 +196,7 @@ class Builder {
     std::span<const glm::vec3> positions_;
     std::span<const uint32_t> indices_;
     glm::vec3 lower_{std::numeric_limits<float>::max()}, upper_{-std::numeric_limits<float>::max()};
+    double cells_per_unit_;
     std::array<uint32_t, 512> slot_;  // vertices of the cluster at hand, by hash of their index
     std::array<uint8_t, 512> local_;
     MeshClusters out_;

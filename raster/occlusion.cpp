@@ -12,6 +12,9 @@ namespace rawtexel::raster {
 
 namespace {
 
+constexpr double kLeastFilling = 0.25;     // twice the area over that of the box: 1 where a side lies along each axis
+constexpr int64_t kMostLayers = 32;        // tests of cells, over the number of cells
+constexpr int64_t kFewestTests = 1 << 16;  // that are not worth counting
 constexpr int64_t kCellSamples = int64_t{kCellPixels} * kSampleOne;
 
 int64_t floor_divide(int64_t a, int64_t b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
@@ -104,7 +107,7 @@ void OcclusionBuffer::draw(std::span<const Draw> draws, std::span<const Occluder
     }
 }
 
-void OcclusionBuffer::gather(const Draw& draw, const Cluster& cluster, bool clockwise, std::vector<Triangle>& group) const {
+void OcclusionBuffer::gather(const Draw& draw, const Cluster& cluster, bool clockwise, std::vector<Triangle>& group) {
     const MeshClusters& mesh = *draw.clusters;
     std::array<SnappedPosition, 3 * kClusterTriangles> snapped;
     std::array<double, 3 * kClusterTriangles> depth;
@@ -122,6 +125,12 @@ void OcclusionBuffer::gather(const Draw& draw, const Cluster& cluster, bool cloc
                    delta(2, &SnappedPosition::x) * delta(1, &SnappedPosition::y);
         };
         if (area() == 0 || (area() > 0) != clockwise) continue;
+        // Slivers hide next to nothing and touch many cells.
+        const auto extent = [&](int32_t SnappedPosition::*axis) {
+            const auto [low, high] = std::minmax({snapped[v[0]].*axis, snapped[v[1]].*axis, snapped[v[2]].*axis});
+            return double(high) - double(low);
+        };
+        if (std::abs(area()) < kLeastFilling * extent(&SnappedPosition::x) * extent(&SnappedPosition::y)) continue;
         if (!clockwise) std::swap(v[1], v[2]);
         Triangle triangle{};
         for (size_t i = 0; i < 3; ++i) {
@@ -137,6 +146,11 @@ void OcclusionBuffer::gather(const Draw& draw, const Cluster& cluster, bool cloc
         const double terms = std::abs(dz1 * dy2) + std::abs(dz2 * dy1) + std::abs(dz2 * dx1) + std::abs(dz1 * dx2);
         triangle.slope_error = 0x1p-48 * terms / area() * kSubpixelOne;
         triangle.extent = (std::abs(dx1) + std::abs(dx2) + std::abs(dy1) + std::abs(dy2)) / kSubpixelOne;
+        // Many layers hide no more than a few: a bound keeps their cost below that of drawing them.
+        const auto [x_low, x_high] = std::minmax({triangle.x[0], triangle.x[1], triangle.x[2]});
+        const auto [y_low, y_high] = std::minmax({triangle.y[0], triangle.y[1], triangle.y[2]});
+        cells_to_test_ += cells_of({2 * int64_t{x_low}, 2 * int64_t{x_high}, 2 * int64_t{y_low}, 2 * int64_t{y_high}}).count();
+        if (cells_to_test_ > std::max(kMostLayers * cell_count(), kFewestTests)) return;
         triangle.depth_min = float(std::min({depth[v[0]], depth[v[1]], depth[v[2]]}));
         group.push_back(triangle);
     }

@@ -30,6 +30,7 @@ class OcclusionBuffer {
   public:
     OcclusionBuffer(const FrameOptions& options, const TileGrid& grid);
 
+    int64_t cell_count() const { return active_.count(); }  ///< of the active tiles
     /// Cells of the active tiles with a sample inside the box.
     CellRange cells_of(const SampleBox& box) const;
 
@@ -57,7 +58,7 @@ class OcclusionBuffer {
         bool border = false;    ///< an edge that nobody shares may cross it
     };
 
-    void gather(const Draw& draw, const Cluster& cluster, bool clockwise, std::vector<Triangle>& group) const;
+    void gather(const Draw& draw, const Cluster& cluster, bool clockwise, std::vector<Triangle>& group);
     static void find_borders(std::vector<Triangle>& group);
     void draw_group(std::span<const Triangle> group, const CellRange& cells);
     SampleBox samples_of(int cell_x, int cell_y) const;
@@ -68,6 +69,7 @@ class OcclusionBuffer {
     const TileGrid& grid_;
     int columns_, rows_;
     CellRange active_;
+    int64_t cells_to_test_ = 0;
     std::vector<float> depth_;
     std::vector<Cell> cells_;
 };

@@ -27,12 +27,6 @@ class SmallTriangle {
     static constexpr int32_t kExtent = 32 * kSubpixelOne;
     static_assert(int64_t{kExtent} * (32 + kBlockWidth + 2 * kMostFilterRadius) * kSampleOne * 2 < int64_t{1} << 31);
 
-    static bool is_small(const SetupTriangle& t) {
-        const auto [x_min, x_max] = std::minmax({t.x[0], t.x[1], t.x[2]});
-        const auto [y_min, y_max] = std::minmax({t.y[0], t.y[1], t.y[2]});
-        return std::max(x_max - x_min, y_max - y_min) <= kExtent;
-    }
-
     /// Whether the triangle covers a sample point as near to it, 1/512 pixel.
     static HWY_INLINE bool covers(const SetupTriangle& t, int32_t x, int32_t y) {
         const auto edge = [&](int i, int j) HWY_ATTR {

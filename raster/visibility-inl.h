@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 HWY_BEFORE_NAMESPACE();
@@ -61,7 +62,7 @@ class TileRasterizer {
     void draw(const TileVisibility::Hit& hit, Coverage& coverage) {
         constexpr bool is_told = requires(const CandidateWave& opaque) { coverage.opaque(opaque); };
         const SetupTriangle& triangle = frame_.triangle(hit.setup_index);
-        if (SmallTriangle::is_small(triangle)) {
+        if (hit.small) {
             if (is_told || triangle.coverage != CoverageClass::Opaque || hit.last_x - hit.first_x >= kBlockWidth) {
                 draw_small(triangle, hit.setup_index, hit, coverage);
             } else if (hit.first_x == hit.last_x && hit.first_y == hit.last_y) {
@@ -147,13 +148,27 @@ class TileRasterizer {
             // Of those in the tile's rows, the pixels inside of the frame.
             const uint32_t inside = (2u << std::min(hit.last_x - column, kBlockWidth - 1)) - 1;
             const DepthLanes depth_of(triangle, pass_, from_origin_x(triangle, column));
+            // Blocks are told of what is written once all of their rows are.
+            int fresh = 0;
+            bool written = false;
+            const auto tell_block = [&](int row) HWY_ATTR {
+                if (!written) return;
+                TileVisibility::Block& told = out_.block[block(column, row)];
+                told.open = int16_t(told.open - std::exchange(fresh, 0));
+                told.stale = true;
+                told.nearest = std::max(told.nearest, triangle.depth_max);
+                written = false;
+            };
             covers.for_each_row(column, hit.first_y, hit.last_y, [&](int row, uint32_t covered) HWY_ATTR {
+                if (row % kHiZWidth == 0) tell_block(row - 1);
                 if ((covered & inside) == 0) return;
-                const uint32_t written = draw_row(triangle, hit.setup_index, entry(column, row), row, covered & inside, depth_of);
-                if (written == 0) return;
-                cover(column, row, written);
-                note_block(block(column, row), triangle.depth_max);
+                const uint32_t winners = draw_row(triangle, hit.setup_index, entry(column, row), row, covered & inside, depth_of);
+                uint8_t& held = out_.covered[entry(column, row) / 8];
+                fresh += std::popcount(winners & ~uint32_t{held});
+                held |= uint8_t(winners);
+                written |= winners != 0;
             });
+            tell_block(hit.last_y);
         }
     }
 
@@ -443,6 +458,9 @@ inline void find_hits(std::span<const uint32_t> bin, const TilePass& pass, TileV
         const auto x0 = first(out.box.x_min, pass.offset_box.x_max), y0 = first(out.box.y_min, pass.offset_box.y_max);
         const auto x1 = hn::Min(last(out.box.x_max, pass.offset_box.x_min), last_column);
         const auto y1 = hn::Min(last(out.box.y_max, pass.offset_box.y_min), last_row);
+        const auto width = hn::Sub(hn::LoadU(d, out.box.x_max.data() + i), hn::LoadU(d, out.box.x_min.data() + i));
+        const auto height = hn::Sub(hn::LoadU(d, out.box.y_max.data() + i), hn::LoadU(d, out.box.y_min.data() + i));
+        const uint32_t large = bits_of(d, hn::Gt(hn::Max(width, height), set(2 * SmallTriangle::kExtent)));
         uint32_t hit = bits_of(d, hn::Not(hn::Or(hn::Gt(x0, x1), hn::Gt(y0, y1))));
         if (hit == 0) continue;
         hn::Store(x0, d, first_x);
@@ -451,8 +469,8 @@ inline void find_hits(std::span<const uint32_t> bin, const TilePass& pass, TileV
         hn::Store(y1, d, last_y);
         for (; hit != 0; hit &= hit - 1) {
             const size_t lane = size_t(std::countr_zero(hit));
-            out.hits[count++] = {bin[i + lane], int16_t(first_x[lane]), int16_t(first_y[lane]), int16_t(last_x[lane]),
-                                 int16_t(last_y[lane])};
+            out.hits[count++] = {bin[i + lane],         int16_t(first_x[lane]), int16_t(first_y[lane]),
+                                 int16_t(last_x[lane]), int16_t(last_y[lane]),  (large >> lane & 1u) == 0};
         }
     }
     out.hits.resize(count);

@@ -37,6 +37,7 @@ struct TileVisibility {
     struct Hit {
         uint32_t setup_index;
         int16_t first_x, first_y, last_x, last_y;
+        bool small;  ///< its integers fit 32 bits (raster/small_triangle-inl.h)
     };
     std::vector<Hit> hits;
 

@@ -115,6 +115,28 @@ BenchScene spheres_scene() {
     return scene;
 }
 
+/// Triangles that the near plane cuts, each with a corner behind the eye.
+BenchScene clipped_scene() {
+    BenchScene scene;
+    scene.meshes.emplace_back().add_grid(400, 250, [&](int i, int j) {
+        return glm::vec3(0.02f * float(i) - 4.0f, 0.02f * float(j) - 2.5f, (i + j) % 2 == 0 ? -1.0f : 0.5f);
+    });
+    const glm::mat4 clip = {2.4f * kHeight / kWidth, 0, 0, 0, 0, 2.4f, 0, 0, 0, 0, 0, -1, 0, 0, 0.1f, 0};
+    scene.add_draw(scene.meshes[0], clip);
+    return scene;
+}
+
+/// Slivers across many tiles each.
+BenchScene slivers_scene() {
+    BenchScene scene;
+    scene.meshes.emplace_back().add_grid(1, 10000, [&](int i, int j) {
+        const float turn = 0.0001f * 6.2831853f * float(j), radius = i == 0 ? 20.0f : 500.0f;
+        return glm::vec3(960 + radius * std::cos(turn), 540 + radius * std::sin(turn), 0.5f);
+    });
+    scene.add_draw(scene.meshes[0], clip_from_pixels());
+    return scene;
+}
+
 raster::FrameOptions frame_options() {
     raster::FrameOptions options;
     options.width = kWidth;
@@ -192,6 +214,8 @@ const bool registered = [] {
     add("grid8", the<middle_grid>);
     add("grid32", the<large_grid>);
     add("spheres", the<spheres_scene>);
+    add("clipped", the<clipped_scene>);
+    add("slivers", the<slivers_scene>);
     add("wall", the<wall_scene, true, false>);
     add("crowd", the<wall_scene, false, true>);
     add("wall_before_crowd", the<wall_scene, true, true>);

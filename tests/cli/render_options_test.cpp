@@ -160,7 +160,7 @@ TEST(RenderOptions, HelpSaysTheRangeOfEveryNumber) {
 }
 
 TEST(RenderOptions, WhatLaterVersionsMayKnowIsUnknownNow) {
-    for (const std::string option : {"--adaptive", "--skip"})
+    for (const std::string option : {"--adaptive"})
         EXPECT_TRUE(error_of({option, "1"}).starts_with("unknown option '" + option + "', the nearest is '--")) << error_of({option, "1"});
 }
 

@@ -1,7 +1,6 @@
 // Whatever a frame leaves out, the image has the same bits, border pixels included.
 #include "shading/skips.h"
 
-#include "scene_parts.h"
 #include "shading/cluster_meshes.h"
 #include "shading/render.h"
 
@@ -9,21 +8,23 @@
 
 #include <cmath>
 #include <cstring>
+#include <random>
 
 namespace rawtexel::shading {
 namespace {
 
-using namespace test;
-
-/// A closed ball of many triangles, small enough that most of them show no sample.
+/// A closed ball of many triangles, small enough that most of them show no sample, every vertex with a colour and alpha of its own.
 Mesh ball(uint32_t material) {
     Mesh mesh;
     mesh.material = material;
-    constexpr uint32_t kRings = 60, kStride = kRings + 1;
+    std::mt19937 random(material);
+    const auto unit = [&] { return float(random() >> 8) * 0x1p-24f; };
+    constexpr uint32_t kRings = 24, kStride = kRings + 1;
     for (uint32_t j = 0; j <= kRings; ++j)
         for (uint32_t i = 0; i <= kRings; ++i) {
             const float turn = 6.2831853f * float(i % kRings) / float(kRings), rise = 3.1415927f * float(j) / float(kRings);
             mesh.positions.push_back(0.4f * glm::vec3(std::cos(turn) * std::sin(rise), std::cos(rise), -std::sin(turn) * std::sin(rise)));
+            mesh.colors.emplace_back(unit(), unit(), unit(), unit());
         }
     for (uint32_t j = 0; j < kRings; ++j)
         for (uint32_t i = 0; i < kRings; ++i) {
@@ -33,30 +34,53 @@ Mesh ball(uint32_t material) {
     return mesh;
 }
 
+/// Balls in rows, mirrored here and there, opaque, masked and blended, half of them behind a wall; the right of the image is empty.
+Scene balls_and_a_wall() {
+    Scene scene;
+    for (const AlphaMode mode : {AlphaMode::Opaque, AlphaMode::Opaque, AlphaMode::Mask, AlphaMode::Blend}) {
+        Material& material = scene.materials.emplace_back();
+        material.unlit = true;
+        material.alpha_mode = mode;
+        material.double_sided = scene.materials.size() % 2 == 0;
+        scene.meshes.push_back(ball(uint32_t(scene.materials.size()) - 1));
+    }
+    for (int i = 0; i < 40; ++i) {
+        glm::mat4 place(1.0f);
+        place[0][0] = i % 3 == 0 ? -1.0f : 1.0f;
+        place[3] = glm::vec4(0.7f * float(i % 5) - 3.0f, 0.6f * float(i / 5 % 2) - 0.3f, -1.2f * float(i / 10), 1.0f);
+        scene.instances.push_back({uint32_t(i % 4), place});
+    }
+    scene.instances.back().world_from_object[3].x = 500.0f;  // out of view
+    Mesh& wall = scene.meshes.emplace_back();
+    wall.positions = {{-4, -0.9f, -0.6f}, {0.5f, -0.9f, -0.6f}, {0.5f, 2, -0.6f}, {-4, 2, -0.6f}};
+    wall.indices = {0, 1, 2, 0, 2, 3};
+    scene.instances.push_back({uint32_t(scene.meshes.size()) - 1, glm::mat4(1.0f)});
+    return scene;
+}
+
 bool same_bits(const Image& a, const Image& b) {
     return a.values.size() == b.values.size() && std::memcmp(a.values.data(), b.values.data(), a.values.size() * sizeof(float)) == 0;
 }
 
 class SkipsTest : public testing::Test {
   protected:
-    SkipsTest() {
-        // In rows through the busy scene, mirrored here and there; some behind what it holds.
-        const uint32_t mesh = uint32_t(scene_.meshes.size());
-        scene_.meshes.push_back(ball(scene_.meshes.front().material));
-        for (int i = 0; i < 14; ++i) {
-            glm::mat4 place(1.0f);
-            place[0][0] = i % 3 == 0 ? -1.0f : 1.0f;
-            place[3] = glm::vec4(0.9f * float(i % 5) - 1.8f, 0.5f * float(i % 2), -0.8f * float(i / 2), 1.0f);
-            scene_.instances.push_back({mesh, place});
-        }
-        cluster_meshes(scene_, *one_);
+    SkipsTest() { cluster_meshes(scene_, *one_); }
+
+    static RenderOptions options() {
+        RenderOptions options;
+        options.width = 75;
+        options.height = 37;
+        options.tile_size = 32;
+        options.camera.vertical_fov = 0.7f;
+        options.camera.world_from_camera[3] = glm::vec4(0, 0, 3, 1);
+        return options;
     }
 
     RenderResult render_with(const RenderOptions& options) const { return render(scene_, lighting_, options, *one_); }
 
     std::unique_ptr<Executor> one_ = make_executor(ExecutorKind::Threads, 1);
-    Scene scene_ = make_busy_scene();
-    Lighting lighting_ = busy_lighting(scene_, *one_);
+    Scene scene_ = balls_and_a_wall();
+    Lighting lighting_;
 };
 
 TEST_F(SkipsTest, ChangeNoBitWhicheverIsOff) {
@@ -64,10 +88,7 @@ TEST_F(SkipsTest, ChangeNoBitWhicheverIsOff) {
     for (const int spp : {1, 16, 64})
         for (const PixelFilter filter : {PixelFilter::Box, PixelFilter::Tent, PixelFilter::Gaussian})
             for (const PixelJitter jitter : {PixelJitter::Frame, PixelJitter::Pixel}) {
-                RenderOptions options;
-                options.width = 70;
-                options.height = 37;
-                options.camera = busy_camera();
+                RenderOptions options = SkipsTest::options();
                 options.spp = spp;
                 options.pixel_filter = filter;
                 options.pixel_jitter = jitter;
@@ -87,15 +108,13 @@ TEST_F(SkipsTest, ChangeNoBitWhicheverIsOff) {
     EXPECT_GT(sum.culled_frustum, 0u);
     EXPECT_GT(sum.culled_backface, 0u);
     EXPECT_GT(sum.culled_unsampled, 0u);
+    EXPECT_GT(sum.culled_occluded, 0u);
     EXPECT_GT(sum.hiz_rejected, 0u);
     EXPECT_GT(sum.tiles_empty, 0u);
 }
 
 TEST_F(SkipsTest, ClustersMadeOnceDrawWhatThoseOfAFrameDo) {
-    RenderOptions options;
-    options.width = 70;
-    options.height = 37;
-    options.camera = busy_camera();
+    const RenderOptions options = SkipsTest::options();
     const RenderResult once = render_with(options);
     for (Mesh& mesh : scene_.meshes) mesh.clusters = nullptr;
     const RenderResult anew = render_with(options);
