@@ -63,8 +63,13 @@ ClusterCull::Range ClusterCull::range_over(const Form& form, const Box& box) {
 SampleBox ClusterCull::box_over(const Range& x, const Range& y, const Range& w) {
     // A whole unit of 1/256 pixel covers snapping and the rounding here. What lies beyond the guard band is as good as on its border.
     constexpr double limit = 2.0 * kGuardBand * kSubpixelOne;
-    const auto low = [&](double v) { return int64_t(std::floor(std::max(v / (v < 0 ? w.low : w.high) * kSubpixelOne, -limit))) - 1; };
-    const auto high = [&](double v) { return int64_t(std::ceil(std::min(v / (v < 0 ? w.high : w.low) * kSubpixelOne, limit))) + 1; };
+    // In this order of arguments what is not a number takes the far end.
+    const auto low = [&](double v) {
+        return int64_t(std::floor(std::min(limit, std::max(-limit, v / (v < 0 ? w.low : w.high) * kSubpixelOne)))) - 1;
+    };
+    const auto high = [&](double v) {
+        return int64_t(std::ceil(std::max(-limit, std::min(limit, v / (v < 0 ? w.high : w.low) * kSubpixelOne)))) + 1;
+    };
     return {2 * low(x.low), 2 * high(x.high), 2 * low(y.low), 2 * high(y.high)};
 }
 

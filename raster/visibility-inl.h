@@ -303,7 +303,9 @@ class TileRasterizer {
 
     /// What is written makes the block look for its farthest pixel again.
     HWY_INLINE void note_opaque(const SetupTriangle& triangle, int column, int row, uint32_t lanes) {
-        for (int r = 0; r < kBlockHeight; ++r) cover(column, row + r, lanes >> (r * kBlockWidth) & 0xFFu);
+        if (out_.block[block(column, row)].open != 0) {
+            for (int r = 0; r < kBlockHeight; ++r) cover(column, row + r, lanes >> (r * kBlockWidth) & 0xFFu);
+        }
         note_block(block(column, row), triangle.depth_max);
     }
 
@@ -328,6 +330,11 @@ class TileRasterizer {
             if (winners == 0) continue;
             written |= winners << i;
             // Whole vectors: what is read again at once comes from the store's queue only where none was masked.
+            if (winners == (1u << hn::Lanes(d)) - 1) {
+                hn::StoreU(depth, df, out_.depth.data() + at + i);
+                hn::StoreU(hn::Set(du, setup_index), du, out_.triangle.data() + at + i);
+                continue;
+            }
             hn::StoreU(hn::IfThenElse(mask_of(df, winners), depth, so_far), df, out_.depth.data() + at + i);
             const auto other = hn::LoadU(du, out_.triangle.data() + at + i);
             hn::StoreU(hn::IfThenElse(mask_of(du, winners), hn::Set(du, setup_index), other), du, out_.triangle.data() + at + i);
