@@ -72,6 +72,12 @@ struct Texture::Maker {
     uint64_t blocks_in(int level) const {
         return blocks_along(level_extent(shape.width, level)) * blocks_along(level_extent(shape.height, level)) * slices(level);
     }
+    /// Of a level whose blocks are all there.
+    void join_pages(int level) {
+        const auto l = size_t(level);
+        const auto first = uint64_t(levels.offset[l]), last = first + uint64_t(levels.slice_stride[l]) * slices(level);
+        memory.join_pages(first * uint64_t(texel_bytes()), last * uint64_t(texel_bytes()));
+    }
     std::byte* block_texels(int32_t block) const { return memory.data() + int64_t(block) * kTexelsPerBlock * texel_bytes(); }
 
     void fill(Texture& texture, const BlockPosition& at, std::byte* out);
@@ -179,6 +185,7 @@ void Texture::make_blocks(int32_t group, uint64_t missing) {
         states_->publish(block);
         if (maker_->blocks_left[size_t(at.level)].fetch_sub(1, std::memory_order_acq_rel) == 1) {
             ready_levels_.fetch_or(1u << at.level, std::memory_order_release);
+            maker_->join_pages(at.level);
         }
     }
     for (; others != 0; others &= others - 1) states_->wait(group * BlockStates::kGroup + std::countr_zero(others));
