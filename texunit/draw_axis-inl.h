@@ -167,12 +167,13 @@ struct WeighedPlace {
         return with_fixed_weights(kernel, remainder, [&](const auto& weight, FloatVec first) HWY_ATTR {
             const FloatTag d;
             const auto one = hn::Set(d, 1.0f);
-            auto before = weight[0], texel = first;
+            const auto least = hn::Set(d, kLeastWeight);
+            auto before = hn::IfThenElseZero(weight[0] >= least, weight[0]), texel = first;
             constexpr size_t last = std::extent_v<std::remove_reference_t<decltype(weight)>> - 1;
             for (size_t k = 1; k <= last; ++k) {
                 auto beyond = number >= before;
                 // Where a tap weighs nothing the sum does not grow; but rounding may leave the sum of all but the last below 1.
-                if (k == last) beyond = hn::And(beyond, weight[last] >= hn::Set(d, kLeastWeight));
+                if (k == last) beyond = hn::And(beyond, weight[last] >= least);
                 texel = hn::IfThenElse(beyond, hn::Add(texel, one), texel);
                 before = hn::Add(before, weight[k]);
             }
@@ -190,7 +191,9 @@ struct BSplinePlace {
         const auto set = [&](float value) HWY_ATTR { return hn::Set(d, value); };
         const auto one = set(1.0f), half = set(0.5f);
         const auto f = hn::Min(hn::Max(hn::Add(remainder, half), hn::Zero(d)), set(1 - 0x1p-24f)), rest = hn::Sub(one, f);
-        const auto first = hn::Mul(hn::Mul(rest, rest), hn::Mul(rest, set(1.0f / 6)));
+        const auto cube = hn::Mul(hn::Mul(rest, rest), hn::Mul(rest, set(1.0f / 6)));
+        // On a centre f may be the largest below 1 instead of 0: then the first texel weighs nothing, and no number draws it.
+        const auto first = hn::IfThenElseZero(cube >= set(kLeastWeight), cube);
         const auto square = fused_multiply_add(f, fused_multiply_add(f, set(1.0f / 3), set(-0.5f)), set(-0.5f));
         const auto second = fused_multiply_add(f, square, set(5.0f / 6));
         const auto third = fused_negative_multiply_add(hn::Mul(f, f), hn::Mul(f, set(1.0f / 6)), one);

@@ -110,6 +110,46 @@ WaveFloat signed_value(Texture& texture, const SamplerState& sampler, const Sign
 
 const Kernel kSignedKernels[] = {Kernel::mitchell(), Kernel::CatmullRom, Kernel::Lanczos2, Kernel::Lanczos3, Kernel::mitchell(0.2f, 0.9f)};
 
+/// On centres and edges of texels some taps weigh nothing, and no number draws them, the least and the largest neither.
+TEST(Draw, NeverDrawsATexelThatWeighsNothing) {
+    constexpr int kExtent = 16;
+    Texture texture("hashed", make_hashed_pyramid(Format::RGBA8Unorm, kExtent, kExtent));
+    struct Case {
+        Kernel kernel;
+        float place;                  ///< texels from the left edge of one
+        std::vector<int> neighbours;  ///< that weigh something there
+    };
+    const Case cases[] = {{Kernel::Nearest, 0.5f, {0}},
+                          {Kernel::Bilinear, 0.5f, {0}},
+                          {Kernel::mitchell(0, 0), 0.5f, {0}},
+                          {Kernel::Quadratic, 0.5f, {-1, 0, 1}},
+                          {Kernel::Quadratic, 0.0f, {-1, 0}},
+                          {Kernel::BSpline, 0.5f, {-1, 0, 1}},
+                          {Kernel::mitchell(1, 0), 0.5f, {-1, 0, 1}}};
+    for (const Case& of : cases) {
+        for (const Estimator estimator : {Estimator::Reservoir, Estimator::Jitter}) {
+            SamplerState sampler{.magnify = of.kernel, .minify = of.kernel, .mip = MipMode::None};
+            sampler.estimator = estimator;
+            for (const float number : {0.0f, 1 - 0x1p-24f}) {
+                WaveCoordinates at{};
+                DrawNumbers numbers{};
+                for (int lane = 0; lane < kWaveLanes; ++lane) {
+                    at.u[lane] = (float(lane % kExtent) + of.place) / kExtent, at.v[lane] = 0.5f / kExtent;
+                    numbers.x[lane] = number, numbers.y[lane] = 0.5f;
+                }
+                TexelDraw drawn;
+                draw_wave(texture, sampler, at, kWaveFull, numbers, drawn);
+                for (int lane = 0; lane < kWaveLanes; ++lane) {
+                    const bool weighs = std::any_of(of.neighbours.begin(), of.neighbours.end(),
+                                                    [&](int neighbour) { return (lane + neighbour + kExtent) % kExtent == drawn.x[lane]; });
+                    EXPECT_TRUE(weighs) << to_string(of.kernel) << ' ' << to_string(estimator) << " drew texel " << drawn.x[lane] << " at "
+                                        << lane % kExtent << " + " << of.place << " with " << number;
+                }
+            }
+        }
+    }
+}
+
 TEST(SignedDraw, PicksTexelsOfEitherSignWithTheProbabilityOfTheirWeights) {
     constexpr uint32_t kWaves = 4000;
     constexpr double kBound = 5.9;  // 120 deviates
