@@ -18,13 +18,6 @@ using namespace testing;
 
 constexpr int kSize = 64;
 
-FrameOptions frame_options() {
-    FrameOptions options;
-    options.width = options.height = kSize;
-    options.filter_radius = kPatternRadius;
-    return options;
-}
-
 /// The caller's x, y, w are those of clip space; the depth is 1/2 everywhere.
 const glm::mat4 kClipFromXyw = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0.5f, 1, 0, 0, 0, 0};
 
@@ -37,7 +30,7 @@ Agreement expect_right_side(const glm::vec3 (&corner)[3], const glm::mat4& clip_
     Mesh mesh;
     mesh.add(corner[0], corner[1], corner[2]);
     const Draw draw = mesh.draw(clip_from_object);
-    const Frame frame(frame_options(), {&draw, 1});
+    const Frame frame(square_frame(kSize), {&draw, 1});
     const Picture picture = draw_frame(frame, {});
     reference::QuadVertex vertex[3];
     for (int i = 0; i < 3; ++i) vertex[i] = reference::to_screen(clip_from_object, corner[i], kSize, kSize);
@@ -105,7 +98,7 @@ TEST(Clip, DiscardsAndCountsTrianglesWithVerticesThatAreNotFinite) {
             mesh.add({0, 0, 1}, {1, 0, 1}, {0, 1, 1});
             mesh.positions[1][component] = bad;
             const Draw draw = mesh.draw(kClipFromXyw);
-            const Frame frame(frame_options(), {&draw, 1});
+            const Frame frame(square_frame(kSize), {&draw, 1});
             EXPECT_EQ(frame.counts().culled_nonfinite, 1u) << bad << " in component " << component;
             EXPECT_EQ(frame.triangle_count(), 0u);
         }
@@ -167,17 +160,6 @@ Mesh box_mesh(std::mt19937& random, const glm::vec3& half, int n) {
     return mesh;
 }
 
-glm::mat4 random_rotation(std::mt19937& random) {
-    const auto direction = [&] {
-        glm::vec3 v;
-        do v = {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
-        while (glm::dot(v, v) > 1 || glm::dot(v, v) < 0.01f);
-        return glm::normalize(v);
-    };
-    const glm::vec3 x = direction(), y = glm::normalize(glm::cross(x, direction())), z = glm::cross(x, y);
-    return {glm::vec4(x, 0), glm::vec4(y, 0), glm::vec4(z, 0), glm::vec4(0, 0, 0, 1)};
-}
-
 TEST(Clip, LeavesAClosedMeshClosedAroundACameraInsideIt) {
     std::mt19937 random(4);
     uint64_t clipped = 0;
@@ -192,7 +174,7 @@ TEST(Clip, LeavesAClosedMeshClosedAroundACameraInsideIt) {
         const glm::mat4 clip = perspective(focal, 1, near_plane) * random_rotation(random) * object;
         Draw draw = mesh.draw(clip);
         draw.coverage = CoverageClass::Blended;
-        const Frame frame(frame_options(), {&draw, 1});
+        const Frame frame(square_frame(kSize), {&draw, 1});
         clipped += frame.counts().clipped;
         for (const SamplePattern& pattern : sample_patterns()) {
             const std::vector<int> hits = count_candidates(frame, pattern);
@@ -227,7 +209,7 @@ TEST(Clip, SlicesAMeshAtTheNearPlaneWithoutHolesOrDoubleHits) {
         const glm::mat4 clip = perspective(1, 1, near_plane) * pitch * yaw;
         Draw draw = mesh.draw(clip);
         draw.coverage = CoverageClass::Blended;
-        const Frame frame(frame_options(), {&draw, 1});
+        const Frame frame(square_frame(kSize), {&draw, 1});
         clipped += frame.counts().clipped;
         // The whole floor as its two halves; a sample near the diagonal between them is left out twice.
         reference::QuadVertex half[2][3];

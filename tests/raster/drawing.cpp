@@ -72,6 +72,24 @@ SampleOffset SamplePattern::at(int x, int y) const {
     return {256 + odd(random & 0xFFFFu), 256 + odd(random >> 16)};
 }
 
+glm::mat4 random_rotation(std::mt19937& random) {
+    const auto direction = [&] {
+        glm::vec3 v;
+        do v = {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
+        while (glm::dot(v, v) > 1 || glm::dot(v, v) < 0.01f);
+        return glm::normalize(v);
+    };
+    const glm::vec3 x = direction(), y = glm::normalize(glm::cross(x, direction())), z = glm::cross(x, y);
+    return {glm::vec4(x, 0), glm::vec4(y, 0), glm::vec4(z, 0), glm::vec4(0, 0, 0, 1)};
+}
+
+FrameOptions square_frame(int extent) {
+    FrameOptions options;
+    options.width = options.height = extent;
+    options.filter_radius = kPatternRadius;
+    return options;
+}
+
 std::vector<SamplePattern> sample_patterns() {
     std::vector<SamplePattern> patterns(5);
     patterns[1].frame = {1, 511};

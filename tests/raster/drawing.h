@@ -26,6 +26,8 @@ glm::mat4 perspective(float focal, float aspect, float near_plane);
 
 /// Uniform in [low, high).
 float uniform(std::mt19937& random, float low, float high);
+/// A turn about the origin, every axis and angle within reach.
+glm::mat4 random_rotation(std::mt19937& random);
 
 /// The sample points of one pass over a frame.
 struct SamplePattern {
@@ -40,6 +42,9 @@ struct SamplePattern {
 std::vector<SamplePattern> sample_patterns();
 /// Support of all patterns above, pixels.
 inline constexpr float kPatternRadius = 1.5f;
+
+/// Of a square frame of `extent` pixels for those patterns.
+FrameOptions square_frame(int extent);
 
 /// By pixel of the frame: the winner's scene-order id and its depth.
 struct Picture {

@@ -19,13 +19,6 @@ using reference::Quad;
 
 constexpr int kSize = 64;
 
-FrameOptions frame_options() {
-    FrameOptions options;
-    options.width = options.height = kSize;
-    options.filter_radius = kPatternRadius;
-    return options;
-}
-
 /// The unclipped triangle that a setup triangle stems from: of whole triangles the snapped positions, else the exact ones.
 void source_vertices(const SetupTriangle& triangle, const Draw& draw, reference::QuadVertex (&vertex)[3]) {
     for (uint32_t i = 0; i < 3; ++i) {
@@ -107,7 +100,7 @@ TEST(Interpolation, EqualsQuadruplePrecisionOnWholeTriangles) {
         mesh.add(corner(), corner(), corner());
     }
     const Draw draw = mesh.draw(perspective(0.9f, 1, 0.05f));
-    const Frame frame(frame_options(), {&draw, 1});
+    const Frame frame(square_frame(kSize), {&draw, 1});
     ASSERT_EQ(frame.counts().clipped, 0u);
     const WorstWeights worst = worst_against_quadruple(frame, {&draw, 1});
     EXPECT_LE(worst.weight, 0x1p-50);
@@ -126,7 +119,7 @@ TEST(Interpolation, EqualsQuadruplePrecisionOnClippedTriangles) {
         mesh.add(corner(), corner(), corner());
     }
     const Draw draw = mesh.draw(perspective(0.9f, 1, 0.05f));
-    const Frame frame(frame_options(), {&draw, 1});
+    const Frame frame(square_frame(kSize), {&draw, 1});
     ASSERT_GT(frame.counts().clipped, 100u);
     const WorstWeights worst = worst_against_quadruple(frame, {&draw, 1});
     EXPECT_LE(worst.weight, 1e-12);
@@ -144,7 +137,7 @@ TEST(Interpolation, StepsInPerspectiveLeadToTheWeightsThere) {
         mesh.add(corner(), corner(), corner());
     }
     const Draw draw = mesh.draw(perspective(0.9f, 1, 0.05f));
-    const Frame frame(frame_options(), {&draw, 1});
+    const Frame frame(square_frame(kSize), {&draw, 1});
     ASSERT_GT(frame.counts().clipped, 50u);
     double worst = 0;
     int steps = 0, bent = 0;
@@ -170,7 +163,7 @@ TEST(Interpolation, StepsInPerspectiveLeadToTheWeightsThere) {
 
 TEST(Interpolation, GivesSnappedVerticesTheirOwnAttributes) {
     const MixedScene scene(3);
-    const Frame frame(frame_options(), scene.draws);
+    const Frame frame(square_frame(kSize), scene.draws);
     int whole = 0;
     frame.for_each_triangle([&](uint32_t, const SetupTriangle& triangle) {
         if (triangle.bary_over_w != nullptr) return;
@@ -197,7 +190,7 @@ TEST(Interpolation, NeverLeavesTheVerticesRangeOnWholeTriangles) {
         mesh.add(a, b, (a + b) * 0.5f + glm::vec3(uniform(random, -width, width), uniform(random, -width, width), 0.4f));
     }
     const Draw draw = mesh.draw(clip_from_pixels(kSize, kSize));
-    const Frame frame(frame_options(), {&draw, 1});
+    const Frame frame(square_frame(kSize), {&draw, 1});
     int samples = 0;
     for_covered_samples(frame, 1, [&](const SetupTriangle& triangle, double x, double y) {
         const Barycentrics at = barycentrics(triangle, x, y);
@@ -218,7 +211,7 @@ TEST(Interpolation, LeavesTheVerticesRangeOnPiecesByNoMoreThanSnappingMoves) {
         mesh.add(corner(), corner(), corner());
     }
     const Draw draw = mesh.draw(perspective(0.9f, 1, 0.05f));
-    const Frame frame(frame_options(), {&draw, 1});
+    const Frame frame(square_frame(kSize), {&draw, 1});
     int samples = 0;
     for_covered_samples(frame, 1, [&](const SetupTriangle& triangle, double x, double y) {
         if (triangle.bary_over_w == nullptr) return;
@@ -253,7 +246,7 @@ BarycentricWave expected_wave(const Frame& frame, const uint32_t* setup_index, c
 
 TEST(Interpolation, OfAWaveEqualsTheScalarBitForBitOnEveryInstructionSet) {
     const MixedScene scene(6, 200);
-    const Frame frame(frame_options(), scene.draws);
+    const Frame frame(square_frame(kSize), scene.draws);
     ASSERT_GT(frame.counts().clipped, 0u);
     std::mt19937 random(7);
     for (int round = 0; round < 400; ++round) {

@@ -13,17 +13,6 @@ namespace {
 
 using namespace testing;
 
-glm::mat4 random_rotation(std::mt19937& random) {
-    const auto direction = [&] {
-        glm::vec3 v;
-        do v = {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
-        while (glm::dot(v, v) > 1 || glm::dot(v, v) < 0.01f);
-        return glm::normalize(v);
-    };
-    const glm::vec3 x = direction(), y = glm::normalize(glm::cross(x, direction())), z = glm::cross(x, y);
-    return {glm::vec4(x, 0), glm::vec4(y, 0), glm::vec4(z, 0), glm::vec4(0, 0, 0, 1)};
-}
-
 /// A bent patch of cells far from square, so that snapping turns many over where it is seen edge-on or from afar.
 Mesh patch(std::mt19937& random) {
     const int columns = 2 + int(random() % 20), rows = 2 + int(random() % 20);

@@ -16,13 +16,6 @@ using namespace testing;
 
 constexpr int kSize = 64;
 
-FrameOptions frame_options() {
-    FrameOptions options;
-    options.width = options.height = kSize;
-    options.filter_radius = kPatternRadius;
-    return options;
-}
-
 /// Pixels of the frame and their neighbours lie well inside. Vertices leave their lattice by less than would fold a cell; the lattice is
 /// turned by any angle, each cell cut along either diagonal, each triangle turned and wound at random.
 Mesh turned_grid(std::mt19937& random, float cell) {
@@ -62,7 +55,7 @@ TEST(Watertight, MeshesTurnedByAnyAngleAreHitOnceAtEverySample) {
         const Mesh mesh = turned_grid(random, cell);
         Draw draw = mesh.draw(clip_from_pixels(kSize, kSize));
         draw.coverage = CoverageClass::Blended;
-        const Frame frame(frame_options(), {&draw, 1});
+        const Frame frame(square_frame(kSize), {&draw, 1});
         for (int repeat = 0; repeat < 200; ++repeat) {
             SamplePattern pattern{{}, repeat % 2 == 0, 768, uint32_t(random())};
             pattern.frame = {2 * int32_t(random() % 768) - 511, 2 * int32_t(random() % 768) - 511};
@@ -96,7 +89,7 @@ TEST(Watertight, TJunctionsMissOnlySamplesOnTheirEdge) {
         mesh.add(middle, b, below);
         Draw draw = mesh.draw(clip_from_pixels(kSize, kSize));
         draw.coverage = CoverageClass::Blended;
-        const Frame frame(frame_options(), {&draw, 1});
+        const Frame frame(square_frame(kSize), {&draw, 1});
         SamplePattern pattern;
         pattern.frame = {2 * int32_t(random() % 256) + 1, 2 * int32_t(random() % 256) + 1};
         const std::vector<int> hits = count_candidates(frame, pattern);
