@@ -126,7 +126,19 @@ LookupOverrides lookup_overrides(const RenderOptions& options, bool occlusion) {
             .footprint = options.footprint,
             .filtering = options.filtering,
             .precision = options.precision,
-            .occlusion = occlusion};
+            .occlusion = occlusion,
+            .constant_texels = options.skips.constant_texels};
+}
+
+/// Makes what the options do not leave to the lookups that need it.
+void make_texels(const Scene& scene, const Skips& skips, Executor& executor) {
+    if (skips.lazy_files && skips.lazy_levels && skips.lazy_blocks) return;
+    executor.parallel_for(int64_t(scene.textures.size()), [&](int64_t index, int) {
+        texunit::Texture& texture = *scene.textures[size_t(index)].texture;
+        if (!skips.lazy_files) texture.ensure(0, 0, 0, 0);
+        for (int level = 0; level < texture.shape().levels; ++level)
+            if (level < texture.source_levels() ? !skips.lazy_blocks : !skips.lazy_levels) texture.make_level(level);
+    });
 }
 
 /// With what the layers of counts need.
@@ -180,6 +192,7 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
     const int tile_size = fetches.needs_order() ? kCanonicalTile : options.tile_size;
     const bool indirect_light = lighting.environment != nullptr || lighting.ambient != 0.0f;
     const DrawStates states = make_draw_states(scene, lookup_overrides(options, indirect_light));
+    make_texels(scene, options.skips, executor);
     const raster::Frame frame = make_frame(states, options, visible, tile_size, executor);
 
     RenderResult result;
@@ -208,6 +221,7 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
         .texture_jitter = options.filtering.texture_jitter,
         .noise = options.filtering.noise,
         .fetch_model = fetches.model,
+        .skip_zero_weights = options.skips.zero_weight_taps,
         .skip_empty_tiles = options.skips.empty_tiles,
     };
     std::optional<FetchAccount> account;

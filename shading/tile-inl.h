@@ -445,7 +445,8 @@ class TileRenderer {
             radiance_ = surface_.base_color;
         } else {
             turn_to_viewer();
-            shade_lanes(*inputs_.lighting, surface_, lanes, radiance_, inputs_.shadow_taps == ShadowTaps::One ? &light_numbers_ : nullptr);
+            shade_lanes(*inputs_.lighting, surface_, lanes, radiance_, inputs_.shadow_taps == ShadowTaps::One ? &light_numbers_ : nullptr,
+                        inputs_.skip_zero_weights);
         }
     }
 

@@ -43,6 +43,7 @@ struct TileInputs {
     TextureJitter texture_jitter = TextureJitter::None;
     texunit::Noise noise = texunit::Noise::White;  ///< of the numbers of both
     FetchModel fetch_model = FetchModel::Visible;  ///< of what listeners hear
+    bool skip_zero_weights = true;                 ///< of light that does not arrive
     bool skip_empty_tiles = true;                  ///< look for nothing where the bin holds nothing
 };
 
