@@ -1,9 +1,13 @@
 #include "shading/accumulation.h"
 
+#include "tests/stress_scale.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <random>
 
 namespace rawtexel::shading {
@@ -107,6 +111,28 @@ TEST(SampleTree, StartsAgainAfterClear) {
     EXPECT_EQ(sum_of(tree), std::vector<double>(kWidth, 0.0));
     for (uint64_t sample = 0; sample < 20; ++sample) tree.add(sample, sample_values(sample));
     EXPECT_EQ(sum_of(tree), sum_of(tree_of(0, 20)));
+}
+
+/// Radiance of all sizes: the tree's float sums of 16 and double sums above stay near a sum with twice the precision of a double.
+TEST(SampleTree, HoldsUnequalSamplesToSingleRounding) {
+    const uint64_t count = uint64_t(5'000'000) * uint64_t(stress_scale());
+    SampleTree tree(3);
+    std::array<long double, 3> sums{};
+    std::minstd_rand random(7);
+    for (uint64_t sample = 0; sample < count; ++sample) {
+        // Dim, ordinary, and rare and bright.
+        const float unit = float(random()) * 0x1p-31f;
+        const std::array<float, 3> values{unit * 1e-6f, unit, sample % 1009 == 0 ? unit * 1e5f : unit};
+        tree.add(sample, values);
+        for (size_t i = 0; i < 3; ++i) sums[i] += (long double)(values[i]);
+    }
+    std::array<double, 3> sum{};
+    tree.sum(0, sum);
+    double worst = 0;
+    for (size_t i = 0; i < 3; ++i) worst = std::max(worst, std::abs(double(((long double)(sum[i]) - sums[i]) / sums[i])));
+    std::printf("sums of %.3g unequal samples: within %.2g of their value\n", double(count), worst);
+    // Four roundings of floats are not all one way.
+    EXPECT_LT(worst, 0x1p-24);
 }
 
 }  // namespace
