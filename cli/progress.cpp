@@ -115,7 +115,7 @@ void ProgressReport::print_line(double share, double now) {
     lines_shown_ = true;
     const double elapsed = now - phase_start_;
     out_ << "rawtexel: " << tenth * 10 << " % after " << print_duration(elapsed);
-    if (amount_ > 0.0 && share < 1.0 && elapsed >= kLeftSeconds) out_ << ", " << print_duration(elapsed * (1.0 - share) / share) << " left";
+    if (amount_ > 0.0 && tenth < 10 && elapsed >= kLeftSeconds) out_ << ", " << print_duration(elapsed * (1.0 - share) / share) << " left";
     out_ << '\n' << std::flush;
 }
 

@@ -31,7 +31,11 @@ std::string bench_page(const std::string& folder, std::span<const SceneResults> 
     Json& configurations = bench["configurations"];
     size_t first = 0;
     for (size_t s = 0; s < scenes.size(); ++s) {
+        // Members first, pictures then: an object that grows moves what it holds.
         Json& scene = bench["scenes"][s];
+        Json& drawn = scene["plots"] = Json::array();
+        for (const BenchPlot& plot : plots[s])
+            drawn.push_back({{"kind", plot.kind}, {"filter", plot.filter}, {"svg", plot_svg(plot.plot)}});
         for (Json& truth : scene["truths"]) pictures.push_back({truth.at("picture"), &(truth["source"] = "")});
         std::vector<bool> shown(scenes[s].measurements.size(), all);
         for (const Series& series : analyses[s].series) shown[series.points.back()] = true;
@@ -41,9 +45,6 @@ std::string bench_page(const std::string& folder, std::span<const SceneResults> 
                 pictures.push_back({one.at("picture"), &(one["source"] = "")});
             }
         first += shown.size();
-        Json& drawn = scene["plots"] = Json::array();
-        for (const BenchPlot& plot : plots[s])
-            drawn.push_back({{"kind", plot.kind}, {"filter", plot.filter}, {"svg", plot_svg(plot.plot)}});
     }
     executor.parallel_for(int64_t(pictures.size()), [&](int64_t index, int) {
         const Picture& picture = pictures[size_t(index)];

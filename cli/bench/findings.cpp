@@ -12,6 +12,8 @@ namespace {
 
 using Group = std::vector<const Series*>;
 
+constexpr double kEqual = 1.01;  ///< errors this near to each other are no difference
+
 std::string short_figure(double value) {
     std::array<char, 32> text;
     std::snprintf(text.data(), text.size(), "%.3g", value);
@@ -32,53 +34,77 @@ const Series* nearest(const Group& group, const SceneResults& results) {
     return best;
 }
 
-std::string outlook(const Series& series) {
+std::string slope_of(const Series& series) { return series.slope ? "samples^" + short_figure(series.slope->slope) : ""; }
+
+/// What becomes of the error, such as "linear · all (0.526)".
+std::string outlook(const Series& series, const SceneResults& results) {
+    const Measurement& last = last_of(series, results);
+    const std::string reached = short_figure(last.error.rmse) + " with " + samples(last.spp);
+    std::string text = series.minification + " · " + series.estimator + " (";
     switch (series.trend) {
-        case Trend::Floor: return ", and more samples do not bring it below " + short_figure(*series.bias);
-        case Trend::Flattens: return ", and flattens towards " + short_figure(*series.bias);
-        case Trend::Falls: return series.slope ? ", and falls as samples^" + short_figure(series.slope->slope) : std::string();
-        case Trend::Truth: return ", no further off than the truth can tell";
+        case Trend::Floor: return text + short_figure(*series.bias) + ")";
+        case Trend::Flattens: return text + reached + ", towards " + short_figure(*series.bias) + ")";
+        case Trend::Falls: return text + reached + (series.slope ? ", " + slope_of(series) : "") + ")";
+        case Trend::Truth:
         case Trend::Unknown: break;
     }
-    return "";
-}
-
-std::string count_of(size_t count, size_t all) {
-    if (count == all) return all == 1 ? "the one setting" : "all " + std::to_string(all) + " settings";
-    if (count == 0) return "none of " + std::to_string(all) + " settings";
-    return std::to_string(count) + " of " + std::to_string(all) + " settings";
+    return text + reached + ")";
 }
 
 void describe_order(FindingKind kind, const std::string& filter, const Group& group, const SceneResults& results,
                     std::vector<Finding>& findings) {
-    const Series* best = nearest(group, results);
-    if (!best) return;
-    const auto floors = size_t(std::ranges::count(group, Trend::Floor, &Series::trend));
-    const Measurement& last = last_of(*best, results);
-    const bool plural = floors != 1;
+    if (group.empty()) return;
+    constexpr std::pair<Trend, const char*> kTrends[] = {{Trend::Floor, "hits a floor: "},
+                                                         {Trend::Flattens, "flattens: "},
+                                                         {Trend::Falls, "falls: "},
+                                                         {Trend::Truth, "as near as the truth can tell: "},
+                                                         {Trend::Unknown, "too few numbers to tell: "}};
     std::string text = filter + (kind == FindingKind::Before ? ", filtered before shading: " : ", filtered after shading: ");
-    text += count_of(floors, group.size()) + (plural ? " hit a floor. " : " hits a floor. ");
-    text += "The nearest to the truth, " + best->name(false) + ", is at RMSE " + short_figure(last.error.rmse) + " with " +
-            samples(last.spp) + outlook(*best) + ".";
-    findings.push_back({kind, filter, text});
+    bool first = true;
+    for (const auto& [trend, words] : kTrends) {
+        std::string list;
+        for (const Series* series : group)
+            if (series->trend == trend) list += (list.empty() ? "" : ", ") + outlook(*series, results);
+        if (list.empty()) continue;
+        text += (first ? "" : "; ") + (words + list);
+        first = false;
+    }
+    findings.push_back({kind, filter, text + "."});
 }
+
+/// The nearest of a group with so many samples; null for none.
+const Measurement* nearest_with(const Group& group, const SceneResults& results, int spp) {
+    const Measurement* best = nullptr;
+    for (const Series* series : group)
+        for (const size_t i : series->points) {
+            const Measurement& one = results.measurements[i];
+            if (one.spp == spp && std::isfinite(one.error.rmse) && (!best || one.error.rmse < best->error.rmse)) best = &one;
+        }
+    return best;
+}
+
+std::string setting(const Measurement& one) { return one.minification + " · " + one.estimator; }
 
 void compare_orders(const std::string& filter, const Group& before, const Group& after, const SceneResults& results,
                     std::vector<Finding>& findings) {
-    const Series *first = nearest(before, results), *second = nearest(after, results);
-    if (!first || !second) return;
-    const double before_rmse = last_of(*first, results).error.rmse, after_rmse = last_of(*second, results).error.rmse;
-    std::string text = filter + ": ";
-    if (before_rmse == after_rmse) {
-        text += "before and after shading are equally near to the truth.";
+    int spp = 0;
+    for (const Measurement& one : results.measurements)
+        if (one.spp > spp && nearest_with(before, results, one.spp) && nearest_with(after, results, one.spp)) spp = one.spp;
+    if (spp == 0) return;
+    const Measurement &first = *nearest_with(before, results, spp), &second = *nearest_with(after, results, spp);
+    const bool after_wins = second.error.rmse < first.error.rmse;
+    const Measurement &near = after_wins ? second : first, &far = after_wins ? first : second;
+    std::string text = filter + ", with " + samples(spp) + ": ";
+    const Truth& truth = results.truth_of(near);
+    if (!is_clear(far, truth)) {
+        text += "before and after shading are both as near as the truth can tell (" + short_figure(far.error.rmse) + ").";
+    } else if (far.error.rmse <= kEqual * near.error.rmse) {
+        text += "before and after shading are equally near to the truth (" + short_figure(near.error.rmse) + ").";
     } else {
-        const bool after_wins = after_rmse < before_rmse;
-        const double nearer = std::min(before_rmse, after_rmse), farther = std::max(before_rmse, after_rmse);
-        text +=
-            after_wins ? "filtered after shading it gets nearer to the truth, " : "filtered before shading it gets nearer to the truth, ";
-        text += short_figure(nearer) + " against " + short_figure(farther);
-        if (nearer > 0) text += ", " + short_figure(farther / nearer) + " times";
-        text += ".";
+        text += std::string("filtering ") + (after_wins ? "after" : "before") + " shading is ";
+        if (is_clear(near, truth)) text += short_figure(far.error.rmse / near.error.rmse) + " times ";
+        text += "nearer to the truth: " + short_figure(near.error.rmse) + " (" + setting(near) + ") against " +
+                short_figure(far.error.rmse) + " (" + setting(far) + ").";
     }
     findings.push_back({FindingKind::Orders, filter, text});
 }
@@ -89,25 +115,23 @@ bool is_cubic(const std::string& filter) {
     return kernel && (kernel->kind == BSpline || kernel->kind == Mitchell || kernel->kind == CatmullRom);
 }
 
-void describe_one_tap(const Series& own, const SceneResults& results, const std::vector<Series>& series, std::vector<Finding>& findings) {
-    const std::vector<OneTapDuel> duels = one_tap_duels(own, results, series);
+void describe_one_tap(const Series& own, const SceneResults& results, const std::vector<Series>& series, bool other_kernels,
+                      std::vector<Finding>& findings) {
+    const std::vector<OneTapDuel> duels = one_tap_duels(own, results, series, other_kernels);
     if (duels.empty()) return;
     const auto won = size_t(std::ranges::count_if(duels, &OneTapDuel::wins));
-    const std::string name = "one-tap " + own.name();
-    std::string text = won == duels.size() ? name + " has the fewest fetches at equal error, at "
-                       : won == 0          ? name + " has the fewest fetches at none of "
-                                           : name + " has the fewest fetches at ";
-    text += won == duels.size() ? (duels.size() == 1 ? std::string("the one error") : "all " + std::to_string(won) + " errors")
-            : won == 0          ? std::to_string(duels.size()) + " errors"
-                                : std::to_string(won) + " of " + std::to_string(duels.size()) + " errors";
-    text += " that it reaches";
+    const std::string all = std::to_string(duels.size()), errors = duels.size() == 1 ? " error" : " errors";
+    std::string text = "One-tap " + own.filter + " (" + own.minification + " · " + own.estimator + ") has ";
+    text += won == 0 ? "not the fewest fetches at any of the " + all + errors
+                     : "the fewest fetches at " + std::to_string(won) + " of " + all + errors;
+    text += std::string(" that it reaches, against ") + (other_kernels ? "other kernels" : "more taps of its kernel");
     const auto at = [](const OneTapDuel& duel) { return "at RMSE " + short_figure(duel.rmse) + " (" + samples(duel.spp) + ")"; };
     // Won at the least error; lost where the rival reads the smallest share.
     const auto last_won = std::find_if(duels.rbegin(), duels.rend(), [](const OneTapDuel& duel) { return duel.wins(); });
     if (last_won != duels.rend()) {
         text += ": " + at(*last_won) + " it reads " + short_figure(last_won->fetches) + " texels a pixel, ";
-        text += last_won->rival ? "the next, " + last_won->rival->name() + ", " + short_figure(last_won->rival_fetches)
-                                : std::string("and nothing else gets there");
+        text += last_won->rival ? last_won->rival->name() + " " + short_figure(last_won->rival_fetches)
+                                : std::string("and none of them gets there");
     }
     text += ".";
     const auto lost = std::ranges::min_element(
@@ -115,9 +139,7 @@ void describe_one_tap(const Series& own, const SceneResults& results, const std:
     if (!lost->wins())
         text += " It has not " + at(*lost) + ": there " + lost->rival->name() + " reads " + short_figure(lost->rival_fetches) + ", it " +
                 short_figure(lost->fetches) + ".";
-    if (const auto& all = duels.back().all_taps)
-        text += " All taps of the kernel read " + short_figure(*all / duels.back().fetches) + " times as many " + at(duels.back()) + ".";
-    findings.push_back({FindingKind::OneTap, own.filter, text});
+    findings.push_back({other_kernels ? FindingKind::OneTapOthers : FindingKind::OneTap, own.filter, text});
 }
 
 }  // namespace
@@ -127,25 +149,24 @@ std::string_view to_string(FindingKind kind) {
         case FindingKind::Before: return "before";
         case FindingKind::After: return "after";
         case FindingKind::Orders: return "orders";
-        case FindingKind::OneTap: break;
+        case FindingKind::OneTap: return "one-tap";
+        case FindingKind::OneTapOthers: break;
     }
-    return "one-tap";
+    return "one-tap-others";
 }
 
-std::vector<OneTapDuel> one_tap_duels(const Series& own, const SceneResults& results, const std::vector<Series>& series) {
+std::vector<OneTapDuel> one_tap_duels(const Series& own, const SceneResults& results, const std::vector<Series>& series,
+                                      bool other_kernels) {
     std::vector<OneTapDuel> duels;
     for (const size_t i : own.points) {
         const Measurement& one = results.measurements[i];
         if (!is_clear(one, results.truth_of(one))) continue;
-        OneTapDuel duel{.rmse = one.error.rmse, .fetches = one.texels_per_pixel(), .spp = one.spp, .all_taps = {}};
+        OneTapDuel duel{.rmse = one.error.rmse, .fetches = one.texels_per_pixel(), .spp = one.spp};
         for (const Series& other : series) {
             const bool same_kernel = other.filter == own.filter && !other.ellipse;
-            if ((same_kernel && other.one_tap) || other.hybrid_bias) continue;
+            if (same_kernel == other_kernels || other.hybrid_bias || (same_kernel && other.one_tap)) continue;
             const std::optional<double> fetches = fetches_at(other, results, duel.rmse);
-            if (!fetches) continue;
-            if (!duel.rival || *fetches < duel.rival_fetches) duel.rival = &other, duel.rival_fetches = *fetches;
-            const bool all_taps = same_kernel && other.estimator == "all";
-            if (all_taps && (!duel.all_taps || *fetches < *duel.all_taps)) duel.all_taps = fetches;
+            if (fetches && (!duel.rival || *fetches < duel.rival_fetches)) duel.rival = &other, duel.rival_fetches = *fetches;
         }
         duels.push_back(duel);
     }
@@ -168,7 +189,9 @@ std::vector<Finding> findings_of(const SceneResults& results, const std::vector<
         describe_order(FindingKind::After, filter, after, results, findings);
         compare_orders(filter, before, after, results, findings);
         const Series* own = is_cubic(filter) ? nearest(one_tap, results) : nullptr;
-        if (own) describe_one_tap(*own, results, series, findings);
+        if (!own) continue;
+        describe_one_tap(*own, results, series, false, findings);
+        if (filters.size() > 1) describe_one_tap(*own, results, series, true, findings);
     }
     return findings;
 }

@@ -22,7 +22,8 @@ void fit(Series& series, const SceneResults& results) {
         squares.push_back({double(one.spp), one.error.mse - truth.standard_error * truth.standard_error});
     }
     series.slope = fit_power(errors);
-    const std::optional<FloorFit> floor = fit_floor(squares);
+    const size_t kept = std::min(squares.size(), kFloorPoints);
+    const std::optional<FloorFit> floor = fit_floor(std::span(squares).last(kept));
     if (floor) series.bias = std::sqrt(floor->floor);
     if (series.points.size() < 2) return;
     const Measurement& last = results.measurements[series.points.back()];
@@ -33,7 +34,11 @@ void fit(Series& series, const SceneResults& results) {
     }
     if (!floor) return;
     const double share = floor->floor / squares.back().y;
-    series.trend = share <= kFallShare ? Trend::Falls : share >= kFloorShare ? Trend::Floor : Trend::Flattens;
+    const double step = fit_power(std::span(errors).last(2))->slope;
+    if (share >= kFloorShare && step >= kFloorStep)
+        series.trend = Trend::Floor;
+    else
+        series.trend = share <= kFallShare || step <= kFallStep ? Trend::Falls : Trend::Flattens;
 }
 
 }  // namespace

@@ -11,11 +11,15 @@
 
 namespace rawtexel::cli {
 
-/// Falls: at most kFallShare of the last squared error does not fall with samples. Floor: at least kFloorShare of it does not. Flattens:
-/// between the two. Truth: the last error is within the truth's own. Unknown: fewer than two numbers of samples.
+/// What the error does in the end, by the share of the last squared error that is the fitted floor, and by the last step, the slope of
+/// the logarithms between the last two errors. Floor: share and step are at least the first two constants. Falls: they are at most the
+/// others, the one or the other. Flattens: between. Truth: the last error is within the truth's own. Unknown: fewer than two numbers of
+/// samples.
 enum class Trend { Falls, Flattens, Floor, Truth, Unknown };
 std::string_view to_string(Trend trend);  // falls flattens floor truth unknown
-inline constexpr double kFallShare = 0.3, kFloorShare = 0.7;
+inline constexpr double kFloorShare = 0.7, kFloorStep = -0.2, kFallShare = 0.3, kFallStep = -0.35;
+/// The floor is fitted to the last of the errors: rare bright samples, which few samples miss, make the first ones no guide.
+inline constexpr size_t kFloorPoints = 3;
 
 struct Series {
     std::string filter, minification, estimator, order;
