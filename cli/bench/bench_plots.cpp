@@ -4,9 +4,7 @@
 #include "cli/comparison_report.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace rawtexel::cli {
@@ -31,13 +29,6 @@ std::string note_of(const Measurement& one) {
     return one.filter + ", " + one.minification + ", " + one.estimator + ", " + one.order + ", " + std::to_string(one.spp) +
            (one.spp == 1 ? " sample" : " samples") + ": RMSE " + print_figure(one.error.rmse) + ", " + print_figure(ms) + " ms, " +
            print_figure(one.texels_per_pixel()) + " texels a pixel";
-}
-
-/// U+2212, as slopes are written.
-std::string print_slope(const PowerFit& fit) {
-    std::array<char, 32> text;
-    std::snprintf(text.data(), text.size(), "%.2f", std::abs(fit.slope));
-    return std::string("N^") + (fit.slope < 0 ? "−" : "") + text.data();
 }
 
 class Plotter {
@@ -143,7 +134,7 @@ class Plotter {
                 most = std::max(most, point.x);
             }
             if (!slopes || !one->slope) continue;
-            plot.series.back().name += "  " + print_slope(*one->slope);
+            plot.series.back().name += "  " + print(*one->slope);
             PlotSeries fitted{.name = "", .points = {}, .thin = true, .color = plot.series.back().color};
             for (const size_t i : {one->points.front(), one->points.back()})
                 fitted.points.push_back({.x = double(at(i).spp), .y = one->slope->at(at(i).spp)});

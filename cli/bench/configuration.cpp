@@ -28,7 +28,7 @@ shading::FootprintOptions footprint_of(const Minification& minification, shading
 
 std::string print(const Minification& minification) {
     const shading::FootprintOptions footprint = footprint_of(minification, {});
-    std::string text = minification.ellipse > 0 ? "ewa " + print_ellipse(minification.ellipse) : print_mip(minification.mip);
+    std::string text = minification.ellipse > 0 ? "ewa " + print_ellipse(minification.ellipse) : "mip " + print_mip(minification.mip);
     if (minification.probes) text += ", aniso " + print_anisotropy(footprint);
     if (minification.hybrid_bias) text += ", hybrid " + print_number(*minification.hybrid_bias);
     return text;

@@ -19,7 +19,7 @@ struct Minification {
 
     bool operator==(const Minification&) const = default;
 };
-/// Such as "none", "linear", "linear, aniso 16", "linear, hybrid 2" or "ewa 0.166667".
+/// Such as "mip none", "mip linear", "mip linear, aniso 16", "mip linear, hybrid 2" or "ewa 0.16666667".
 std::string print(const Minification& minification);
 
 struct Configuration {

@@ -34,9 +34,7 @@ const Series* nearest(const Group& group, const SceneResults& results) {
     return best;
 }
 
-std::string slope_of(const Series& series) { return series.slope ? "samples^" + short_figure(series.slope->slope) : ""; }
-
-/// What becomes of the error, such as "linear · all (0.526)".
+/// What becomes of the error, such as "mip linear · all (0.526)".
 std::string outlook(const Series& series, const SceneResults& results) {
     const Measurement& last = last_of(series, results);
     const std::string reached = short_figure(last.error.rmse) + " with " + samples(last.spp);
@@ -44,7 +42,7 @@ std::string outlook(const Series& series, const SceneResults& results) {
     switch (series.trend) {
         case Trend::Floor: return text + short_figure(*series.bias) + ")";
         case Trend::Flattens: return text + reached + ", towards " + short_figure(*series.bias) + ")";
-        case Trend::Falls: return text + reached + (series.slope ? ", " + slope_of(series) : "") + ")";
+        case Trend::Falls: return text + reached + (series.slope ? ", " + print(*series.slope) : "") + ")";
         case Trend::Truth:
         case Trend::Unknown: break;
     }

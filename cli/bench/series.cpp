@@ -1,7 +1,9 @@
 #include "cli/bench/series.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 namespace rawtexel::cli {
 namespace {
@@ -28,6 +30,8 @@ void fit(Series& series, const SceneResults& results) {
     if (series.points.size() < 2) return;
     const Measurement& last = results.measurements[series.points.back()];
     if (!is_clear(last, results.truth_of(last))) {
+        // Whatever the floor is, it lies below what the truth can tell.
+        series.bias.reset();
         // What is not finite is no truth.
         series.trend = std::isfinite(last.error.rmse) ? Trend::Truth : Trend::Unknown;
         return;
@@ -81,6 +85,12 @@ std::vector<Series> series_of(const SceneResults& results) {
     }
     for (Series& series : list) fit(series, results);
     return list;
+}
+
+std::string print(const PowerFit& slope) {
+    std::array<char, 32> text;
+    std::snprintf(text.data(), text.size(), "%.2f", std::abs(slope.slope));
+    return std::string("N^") + (slope.slope < 0 ? "−" : "") + text.data();
 }
 
 Fronts fronts_of(const SceneResults& results) {

@@ -29,13 +29,17 @@ struct Series {
     /// Of the errors that are clear of the truth's, over samples.
     std::optional<PowerFit> slope;
     /// What is left of the error when samples are many: the root of the fitted floor of the squared errors, without that of the truth.
+    /// Unset where the last error is within the truth's.
     std::optional<double> bias;
     Trend trend = Trend::Unknown;
 
-    /// "bilinear · linear · reservoir · after", or without the kernel.
+    /// "bilinear · mip linear · reservoir · after", or without the kernel.
     std::string name(bool with_filter = true) const;
 };
 std::vector<Series> series_of(const SceneResults& results);
+
+/// "N^−0.52", N being the samples.
+std::string print(const PowerFit& slope);
 
 /// On which front each measurement of a scene is: error against the median time, and against texel reads a pixel.
 struct Fronts {

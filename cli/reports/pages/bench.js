@@ -21,7 +21,7 @@ const filtersOf = index => [...new Set(data.scenes[index].plots.map(plot => plot
 function plotHost(plot, describe) {
     const host = element('div', {class: 'plot', tabindex: '0', role: 'group', 'aria-label': kindTitles[plot.kind], 'data-kind': plot.kind, 'data-filter': plot.filter});
     const root = host.attachShadow({mode: 'open'});
-    root.innerHTML = `<style>svg { display: block; width: 100%; height: auto; } circle[data-key] { cursor: pointer; } circle.chosen { r: 6px; stroke: #000; stroke-width: 2px; }</style>${plot.svg}`;
+    root.innerHTML = `<style>svg { display: block; width: 100%; min-width: 34rem; height: auto; } @media print { svg { min-width: 0; } } circle[data-key] { cursor: pointer; } circle.chosen { r: 6px; stroke: #000; stroke-width: 2px; }</style>${plot.svg}`;
     root.querySelector('svg').setAttribute('role', 'img');
     const points = [...root.querySelectorAll('circle[data-key]')];
     let at = -1;
@@ -57,6 +57,12 @@ function fillPlots() {
 
 // --- At a glance
 
+/** What becomes of the errors stands out. */
+function findingItem(finding) {
+    const parts = finding.text.split(/((?:hits a floor|flattens|falls|as near as the truth can tell|too few numbers to tell):|the fewest fetches at \d+ of \d+ errors?|[\d.]+ times nearer)/);
+    return element('li', {'data-kind': finding.kind}, ...parts.map((part, i) => i % 2 ? element('strong', {}, part) : part));
+}
+
 function fillGlance() {
     const filter = byId('glance-filter').value;
     byId('glance').replaceChildren(...data.scenes.map(one => {
@@ -68,7 +74,7 @@ function fillGlance() {
             if (plot) plots.append(plotHost(plot, text => { readout.textContent = text; }));
         }
         const findings = one.findings.filter(f => f.filter === filter);
-        card.append(element('h3', {}, one.scene), element('ul', {class: 'findings'}, ...findings.map(f => element('li', {'data-kind': f.kind}, f.text))));
+        card.append(element('h3', {}, one.scene), element('ul', {class: 'findings'}, ...findings.map(findingItem)));
         if (plots.children.length) card.append(plots, readout);
         return card;
     }));
@@ -100,7 +106,8 @@ function fillPictures() {
         return `pixel ${x}, ${y}\n${text('left')}\n${text('right')}`;
     });
     slider.zoom(Number(byId('zoom').value));
-    byId('left').selectedIndex = Math.min(truths.length, entries.length - 1);
+    const first = data.scenes[scene].series[0].configurations.at(-1);
+    byId('left').selectedIndex = Math.max(0, entries.findIndex(entry => entry.configuration === first));
     byId('right').selectedIndex = 0;
 }
 
