@@ -12,7 +12,7 @@ namespace {
 constexpr double kQuietSeconds = 1.0;  // Auto says nothing before
 constexpr double kRedrawSeconds = 0.1;
 constexpr double kLineSeconds = 1.0;   // Auto's lines are no closer
-constexpr double kLeftSeconds = 10.0;  // of a phase, until plain lines tell the time left
+constexpr double kLeftSeconds = 5.0;  // of a phase, until plain lines tell the time left
 constexpr int kBarWidth = 30;          // characters
 constexpr const char* kEraseLine = "\r\033[K";
 

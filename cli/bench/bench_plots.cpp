@@ -27,7 +27,8 @@ int color_of(const Series& series) {
 std::string note_of(const Measurement& one) {
     const double ms = one.frame_median() * 1e3;
     return one.filter + ", " + one.minification + ", " + one.estimator + ", " + one.order + ", " + std::to_string(one.spp) +
-           (one.spp == 1 ? " sample" : " samples") + ": RMSE " + print_figure(one.error.rmse) + ", " + print_figure(ms) + " ms, " +
+           (one.spp == 1 ? " sample" : " samples") + ": RMSE " +
+           (std::isfinite(one.error.rmse) ? print_figure(one.error.rmse) : "no number") + ", " + print_figure(ms) + " ms, " +
            print_figure(one.texels_per_pixel()) + " texels a pixel";
 }
 

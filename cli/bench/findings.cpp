@@ -16,8 +16,13 @@ constexpr double kEqual = 1.01;  ///< errors this near to each other are no diff
 
 std::string short_figure(double value) {
     std::array<char, 32> text;
-    std::snprintf(text.data(), text.size(), "%.3g", value);
+    std::snprintf(text.data(), text.size(), std::abs(value) >= 1000 ? "%.0f" : "%.3g", value);
     return text.data();
+}
+
+std::string texels(double count) {
+    const std::string figure = short_figure(count);
+    return figure + (figure == "1" ? " texel" : " texels");
 }
 
 const Measurement& last_of(const Series& series, const SceneResults& results) { return results.measurements[series.points.back()]; }
@@ -34,19 +39,40 @@ const Series* nearest(const Group& group, const SceneResults& results) {
     return best;
 }
 
-/// What becomes of the error, such as "mip linear · all (0.526)".
+/// What becomes of the error, such as "0.526" of a floor, or "0.0972 with 256 samples, N^−0.55".
 std::string outlook(const Series& series, const SceneResults& results) {
     const Measurement& last = last_of(series, results);
     const std::string reached = short_figure(last.error.rmse) + " with " + samples(last.spp);
-    std::string text = series.minification + " · " + series.estimator + " (";
     switch (series.trend) {
-        case Trend::Floor: return text + short_figure(*series.bias) + ")";
-        case Trend::Flattens: return text + reached + ", towards " + short_figure(*series.bias) + ")";
-        case Trend::Falls: return text + reached + (series.slope ? ", " + print(*series.slope) : "") + ")";
+        case Trend::Floor: return short_figure(*series.bias);
+        case Trend::Flattens: return reached + ", towards " + short_figure(*series.bias);
+        case Trend::Falls: return reached + (series.slope ? ", " + print(*series.slope) : "");
         case Trend::Truth:
         case Trend::Unknown: break;
     }
-    return text + reached + ")";
+    return reached;
+}
+
+/// "mip none · all (0.0952), mip linear · reservoir/jitter (0.825)": estimators that come to the same share their place.
+std::string list_of(const Group& group, Trend trend, const SceneResults& results) {
+    struct Entry {
+        std::string minification, estimators, outlook;
+    };
+    std::vector<Entry> entries;
+    for (const Series* series : group) {
+        if (series->trend != trend) continue;
+        const std::string text = outlook(*series, results);
+        const auto same = std::ranges::find_if(
+            entries, [&](const Entry& entry) { return entry.minification == series->minification && entry.outlook == text; });
+        if (same == entries.end())
+            entries.push_back({series->minification, series->estimator, text});
+        else
+            same->estimators += "/" + series->estimator;
+    }
+    std::string list;
+    for (const Entry& entry : entries)
+        list += (list.empty() ? "" : ", ") + entry.minification + " · " + entry.estimators + " (" + entry.outlook + ")";
+    return list;
 }
 
 void describe_order(FindingKind kind, const std::string& filter, const Group& group, const SceneResults& results,
@@ -60,9 +86,7 @@ void describe_order(FindingKind kind, const std::string& filter, const Group& gr
     std::string text = filter + (kind == FindingKind::Before ? ", filtered before shading: " : ", filtered after shading: ");
     bool first = true;
     for (const auto& [trend, words] : kTrends) {
-        std::string list;
-        for (const Series* series : group)
-            if (series->trend == trend) list += (list.empty() ? "" : ", ") + outlook(*series, results);
+        const std::string list = list_of(group, trend, results);
         if (list.empty()) continue;
         text += (first ? "" : "; ") + (words + list);
         first = false;
@@ -127,7 +151,7 @@ void describe_one_tap(const Series& own, const SceneResults& results, const std:
     // Won at the least error; lost where the rival reads the smallest share.
     const auto last_won = std::find_if(duels.rbegin(), duels.rend(), [](const OneTapDuel& duel) { return duel.wins(); });
     if (last_won != duels.rend()) {
-        text += ": " + at(*last_won) + " it reads " + short_figure(last_won->fetches) + " texels a pixel, ";
+        text += ": " + at(*last_won) + " it reads " + texels(last_won->fetches) + " a pixel, ";
         text += last_won->rival ? last_won->rival->name() + " " + short_figure(last_won->rival_fetches)
                                 : std::string("and none of them gets there");
     }

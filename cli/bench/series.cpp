@@ -36,7 +36,7 @@ void fit(Series& series, const SceneResults& results) {
         series.trend = std::isfinite(last.error.rmse) ? Trend::Truth : Trend::Unknown;
         return;
     }
-    if (!floor) return;
+    if (!floor || kept < kFloorPoints) return;
     const double share = floor->floor / squares.back().y;
     const double step = fit_power(std::span(errors).last(2))->slope;
     if (share >= kFloorShare && step >= kFloorStep)

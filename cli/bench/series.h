@@ -13,8 +13,8 @@ namespace rawtexel::cli {
 
 /// What the error does in the end, by the share of the last squared error that is the fitted floor, and by the last step, the slope of
 /// the logarithms between the last two errors. Floor: share and step are at least the first two constants. Falls: they are at most the
-/// others, the one or the other. Flattens: between. Truth: the last error is within the truth's own. Unknown: fewer than two numbers of
-/// samples.
+/// others, the one or the other. Flattens: between. Truth: the last error is within the truth's own. Unknown: fewer than
+/// kFloorPoints errors that are clear of it.
 enum class Trend { Falls, Flattens, Floor, Truth, Unknown };
 std::string_view to_string(Trend trend);  // falls flattens floor truth unknown
 inline constexpr double kFloorShare = 0.7, kFloorStep = -0.2, kFallShare = 0.3, kFallStep = -0.35;

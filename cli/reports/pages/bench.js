@@ -168,7 +168,7 @@ function fillConfigurations(onlyFront) {
 function fillScene() {
     const one = data.scenes[scene];
     byId('scene-name').textContent = one.scene;
-    const kept = byId('filter').value;
+    const kept = byId('filter').length ? byId('filter').value : null;
     const filters = filtersOf(scene);
     byId('filter').replaceChildren(...filters.map(f => element('option', {value: f}, f || 'all beside each other')));
     if (filters.includes(kept)) byId('filter').value = kept;
