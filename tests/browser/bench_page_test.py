@@ -154,6 +154,24 @@ class BenchPage(ReportTest):
         self.browser.type(plot, "\ue007")
         self.browser.wait(f"document.body.dataset.left === '{self.name(self.json['configurations'][points[1][0]])}'")
 
+    def test_costs_at_an_error_lie_between_the_points(self):
+        series = next(s for s in self.json["scenes"][0]["series"] if len(s["configurations"]) == 3 and s["slope"] is not None and s["slope"] < -0.3)
+        first, second = (self.json["configurations"][i] for i in series["configurations"][:2])
+        error = (first["rmse"] * second["rmse"]) ** 0.5
+        self.browser.run("""const input = document.getElementById('reach');
+            input.value = arguments[0];
+            input.dispatchEvent(new Event('input'));""", repr(error))
+        rows = self.browser.run("""return [...document.querySelectorAll('#reached tbody tr')].map(row => Object.fromEntries(
+            [...row.cells].map(cell => [cell.dataset.key, cell.dataset.value ?? cell.textContent])));""")
+        shown = next(row for row in rows if row["name"] == series["name"])
+        # Half way of the logarithms: the geometric mean.
+        self.assertAlmostEqual(float(shown["texels"]), (first["texels_per_pixel"] * second["texels_per_pixel"]) ** 0.5, delta=1e-6)
+        self.assertAlmostEqual(float(shown["samples"]), (first["image"]["spp"] * second["image"]["spp"]) ** 0.5, delta=1e-6)
+        names = {row["name"] for row in rows}
+        for s in self.json["scenes"][0]["series"]:
+            reaches = any(self.json["configurations"][i]["rmse"] <= error for i in s["configurations"])
+            self.assertEqual(s["name"] in names, reaches, s["name"])
+
     def test_slider_and_keys(self):
         self.browser.run("document.querySelector('#pictures').scrollIntoView({block: 'center'});")
         width = self.browser.run("return document.querySelector('.stage').getBoundingClientRect().width;")
@@ -199,7 +217,7 @@ class BenchPage(ReportTest):
             self.browser.ask("POST", "/actions", {"actions": [{"type": "key", "id": "keyboard", "actions": [
                 {"type": "keyDown", "value": KEYS["tab"]}, {"type": "keyUp", "value": KEYS["tab"]}]}]})
             reached.add(self.browser.run("const e = document.activeElement; return e.id || e.dataset.kind || e.classList[0];"))
-        self.assertLessEqual({"glance-filter", "scene", "filter", "left", "right", "zoom", "swap", "slider", "slider-position", "show-all", "show-front",
+        self.assertLessEqual({"glance-filter", "scene", "filter", "left", "right", "zoom", "swap", "slider", "slider-position", "show-all", "show-front", "reach",
                               "error-samples", "error-time", "error-fetches", "time-samples", "bias-hybrid"}, reached)
 
     def test_dark_mode_and_phone(self):

@@ -106,7 +106,7 @@ function fillPictures() {
         return `pixel ${x}, ${y}\n${text('left')}\n${text('right')}`;
     });
     slider.zoom(Number(byId('zoom').value));
-    const first = data.scenes[scene].series[0].configurations.at(-1);
+    const first = data.scenes[scene].series[0]?.configurations.at(-1);
     byId('left').selectedIndex = Math.max(0, entries.findIndex(entry => entry.configuration === first));
     byId('right').selectedIndex = 0;
 }
@@ -165,9 +165,35 @@ function fillConfigurations(onlyFront) {
     byId('show-front').setAttribute('aria-pressed', String(onlyFront));
 }
 
+/** Where a series first gets to an error: its cost there, by `read` of a configuration; null where it does not. */
+function costAt(series, error, read) {
+    const points = series.configurations.map(i => all[i]);
+    const at = points.findIndex(c => c.rmse !== null && c.rmse <= error);
+    if (at < 0) return null;
+    const cost = read(points[at]);
+    if (at === 0 || points[at].rmse === error || points[at].rmse === 0 || points[at - 1].rmse === null) return cost;
+    const share = Math.log(points[at - 1].rmse / error) / Math.log(points[at - 1].rmse / points[at].rmse);
+    return read(points[at - 1]) * (cost / read(points[at - 1])) ** share;
+}
+
+function fillReached() {
+    const error = Number(byId('reach').value);
+    const rows = data.scenes[scene].series.map(s => ({
+        name: s.name, texels: costAt(s, error, c => c.texels_per_pixel), time: costAt(s, error, c => c.frame_s.median), samples: costAt(s, error, c => c.image.spp),
+    })).filter(row => row.texels !== null).sort((a, b) => a.texels - b.texels);
+    fillTable(byId('reached'), [
+        {key: 'name', label: 'Setting'}, {key: 'texels', label: 'Texels a pixel', best: 'least'}, {key: 'time', label: 'Frame, s', best: 'least'},
+        {key: 'samples', label: 'Samples'},
+    ], rows);
+    byId('reached-none').hidden = rows.length > 0;
+}
+
 function fillScene() {
     const one = data.scenes[scene];
-    byId('scene-name').textContent = one.scene;
+    byId('scene-name').textContent = byId('reach-scene').textContent = one.scene;
+    const last = one.series.map(s => all[s.configurations.at(-1)].rmse).filter(rmse => rmse !== null).sort((a, b) => a - b);
+    byId('reach').value = last.length ? String(Number((last[Math.floor(last.length / 2)] / 2).toPrecision(2))) : '0';
+    fillReached();
     const kept = byId('filter').length ? byId('filter').value : null;
     const filters = filtersOf(scene);
     byId('filter').replaceChildren(...filters.map(f => element('option', {value: f}, f || 'all beside each other')));
@@ -195,6 +221,7 @@ function fillScene() {
 byId('scene').append(...data.scenes.map(one => element('option', {}, one.scene)));
 byId('scene').addEventListener('change', () => { scene = byId('scene').selectedIndex; fillScene(); });
 byId('filter').addEventListener('change', fillPlots);
+byId('reach').addEventListener('input', fillReached);
 const everyFilter = [...new Set(data.scenes.flatMap(one => one.plots.map(plot => plot.filter)))].filter(Boolean);
 byId('glance-filter').append(...everyFilter.map(f => element('option', {}, f)));
 byId('glance-filter').addEventListener('change', fillGlance);
@@ -211,7 +238,7 @@ byId('show-all').addEventListener('click', () => fillConfigurations(false));
 byId('show-front').addEventListener('click', () => fillConfigurations(true));
 
 document.addEventListener('keydown', event => {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.('select')) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.('select, input[type=number]')) return;
     const step = (id, by) => {
         const select = byId(id);
         if (!select.length) return;
