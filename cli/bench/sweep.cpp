@@ -163,7 +163,7 @@ SweepBudget full_budget() { return {.frame = 1e7, .repeats = 1e7, .least_repeats
 
 SweepBudget quick_budget(size_t scenes) {
     const double share = 4.0 / double(std::max<size_t>(scenes, 4));
-    return {.frame = 6e5 * share, .repeats = 6e5 * share, .least_repeats = 2, .most_repeats = 5, .truth = 1e7 * share, .quick = true};
+    return {.frame = 6e5 * share, .repeats = 3e5 * share, .least_repeats = 2, .most_repeats = 5, .truth = 1e7 * share, .quick = true};
 }
 
 double quick_pixels(const SweepBudget& budget) { return budget.truth / (kLeastTruthSamples * 16); }

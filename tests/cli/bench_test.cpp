@@ -1,3 +1,5 @@
+#include "cli/bench/bench_page.h"
+#include "cli/bench/bench_run.h"
 #include "cli/command.h"
 #include "cli/shell_words.h"
 #include "scenes/image_io.h"
@@ -142,10 +144,16 @@ TEST(Bench, PicturesAndFetchesAreThoseOfRender) {
         filters.insert(one.at("filter"));
         estimators.insert(one.at("estimator"));
         orders.insert(one.at("order"));
-        expect_rendered(folder, one, {"--stats", folder / "stats.json", "--count"});
+        expect_rendered(folder, one, {"--stats", folder / "stats.json", "--count", "--aov", "lines"});
         const Json stats = read_json(folder / "stats.json");
         for (const auto& [key, value] : one.at("texture").items()) EXPECT_EQ(value, stats.at("texture").at(key)) << key;
         EXPECT_EQ(one.at("image"), stats.at("image"));
+        const shading::Image rendered = scenes::read_image(folder / "again.exr", false);
+        ASSERT_EQ(rendered.channels, 4);
+        double lines = 0;
+        for (size_t i = 3; i < rendered.values.size(); i += 4) lines += double(rendered.values[i]);
+        EXPECT_GT(lines, 24 * 16);
+        EXPECT_DOUBLE_EQ(one.at("lines_per_pixel").get<double>(), lines / (24 * 16));
         EXPECT_DOUBLE_EQ(one.at("texels_per_pixel").get<double>(), stats.at("texture").at("texels_requested").get<double>() / (24 * 16));
     }
     EXPECT_EQ(filters, (std::set<std::string>{"bilinear", "mitchell:0,0.5"}));
@@ -332,6 +340,39 @@ TEST(Bench, QuickEndsWithinItsBudgetWhateverTheSize) {
     for (const Json& one : json.at("configurations")) {
         const bool draws = one.at("estimator") != "all" || one.at("order") == "before";
         EXPECT_TRUE(!draws || one.at("image").at("spp").get<int>() * 120 * 80 <= 600000) << one.at("options");
+    }
+}
+
+TEST(Bench, BeginsNothingMoreWhenItsTimeIsOver) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "pictures");
+    std::ostringstream out;
+    const Invocation invocation{"bench", out, out};
+    const auto executor = shading::make_executor(shading::default_executor_kind(), 1);
+    BenchPlan plan;
+    plan.scenes = {"magnify"};
+    plan.folder = folder.path();
+    plan.base.size = ImageSize{8, 8};
+    plan.axes.spps = {1, 4};
+    plan.budget = quick_budget(1);
+    plan.start = ProgressReport::steady_seconds();
+    for (const double seconds : {-1.0, 1e9}) {
+        plan.seconds = seconds;
+        SweepFile file(folder / "sweep.jsonl", {});
+        ProgressReport progress(out, ProgressMode::Never, false);
+        const std::vector<SceneResults> results = run_bench(plan, file, invocation, *executor, progress, [](const std::string&) {});
+        ASSERT_EQ(results.size(), 1u);
+        size_t late = 0, other = 0;
+        for (const LeftOut& one : results[0].left_out) (one.late ? late : other) += one.spps.size();
+        EXPECT_GT(other, 0u);
+        EXPECT_EQ(late == 0, seconds > 0);
+        EXPECT_EQ(results[0].measurements.empty(), seconds < 0);
+        // Nothing at all is a report, too.
+        const std::vector<SceneAnalysis> analyses{analyse(results[0])};
+        const std::vector<std::vector<BenchPlot>> plots{bench_plots(results[0], analyses[0].series, analyses[0].fronts, 0, "magnify")};
+        const Json json = bench_json(results, analyses, "bench");
+        EXPECT_EQ(bench_csv(json).find("scene,filter,"), 0u);
+        EXPECT_NE(bench_page(folder.path(), results, analyses, plots, json, {}, *executor).find("</html>"), std::string::npos);
     }
 }
 
