@@ -343,41 +343,6 @@ TEST(Bench, QuickEndsWithinItsBudgetWhateverTheSize) {
     }
 }
 
-TEST(Bench, BeginsNothingMoreWhenItsTimeIsOver) {
-    const TemporaryFolder folder;
-    std::filesystem::create_directory(folder / "pictures");
-    std::ostringstream out;
-    const Invocation invocation{"bench", out, out};
-    const auto executor = shading::make_executor(shading::default_executor_kind(), 1);
-    BenchPlan plan;
-    plan.scenes = {"magnify"};
-    plan.folder = folder.path();
-    plan.base.size = ImageSize{8, 8};
-    plan.axes.spps = {1, 4};
-    plan.budget = quick_budget(1);
-    plan.start = ProgressReport::steady_seconds();
-    for (const double seconds : {-1.0, 1e9}) {
-        plan.seconds = seconds;
-        SweepFile file(folder / "sweep.jsonl", {});
-        ProgressReport progress(out, ProgressMode::Never, false);
-        const std::vector<SceneResults> results = run_bench(plan, file, invocation, *executor, progress, [](const std::string&) {});
-        ASSERT_EQ(results.size(), 1u);
-        size_t late = 0, other = 0;
-        for (const LeftOut& one : results[0].left_out) (one.late ? late : other) += one.spps.size();
-        EXPECT_GT(other, 0u);
-        EXPECT_EQ(late == 0, seconds > 0);
-        EXPECT_EQ(results[0].measurements.empty(), seconds < 0);
-        // Nothing at all is a report, too.
-        const std::vector<SceneAnalysis> analyses{analyse(results[0])};
-        const std::vector<std::vector<BenchPlot>> plots{bench_plots(results[0], analyses[0].series, analyses[0].fronts, 0, "magnify")};
-        const Json json = bench_json(results, analyses, "bench");
-        EXPECT_EQ(bench_csv(json).find("scene,filter,"), 0u);
-        EXPECT_NE(bench_page(folder.path(), results, analyses, plots, json, {}, *executor).find("</html>"), std::string::npos);
-    }
-}
-
-// --- Going on
-
 size_t measured_lines(const std::vector<std::string>& lines) {
     return size_t(std::ranges::count_if(lines, [](const std::string& line) { return line.starts_with("{\"configuration\""); }));
 }
@@ -391,6 +356,67 @@ void interrupt_after(const std::string& path, size_t count) {
     }
     test::write_file(path, kept);
 }
+
+TEST(Bench, BeginsNothingMoreWhenItsTimeIsOver) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "pictures");
+    std::ostringstream out;
+    const Invocation invocation{"bench", out, out};
+    const auto executor = shading::make_executor(shading::default_executor_kind(), 1);
+    BenchPlan plan;
+    plan.scenes = {"magnify"};
+    plan.folder = folder.path();
+    plan.base.size = ImageSize{8, 8};
+    plan.axes.spps = {1, 4};
+    plan.budget = quick_budget(1);
+    plan.start = ProgressReport::steady_seconds();
+    size_t all = 0;
+    for (const auto& [seconds, kept] : {std::pair{-1.0, 0}, std::pair{1e9, 0}, std::pair{-1.0, 1}}) {
+        plan.seconds = seconds;
+        const std::string path = folder / "sweep.jsonl";
+        if (kept > 0) interrupt_after(path, size_t(kept));
+        SweepFile file = kept > 0 ? SweepFile::resumed(path, {}) : SweepFile(path, {});
+        ProgressReport progress(out, ProgressMode::Never, false);
+        const std::vector<SceneResults> results = run_bench(plan, file, invocation, *executor, progress, [](const std::string&) {});
+        ASSERT_EQ(results.size(), 1u);
+        size_t late = 0, other = 0;
+        for (const LeftOut& one : results[0].left_out) (one.late ? late : other) += one.spps.size();
+        EXPECT_GT(other, 0u);
+        EXPECT_EQ(late == 0, seconds > 0);
+        // What is finished is kept, though its truth is known and the next would not take long.
+        EXPECT_EQ(results[0].measurements.size(), seconds < 0 ? size_t(kept) : results[0].measurements.size());
+        if (seconds > 0) all = results[0].measurements.size();
+        EXPECT_TRUE(kept == 0 || late + size_t(kept) == all) << late << ' ' << all;
+        // Nothing at all is a report, too.
+        const std::vector<SceneAnalysis> analyses{analyse(results[0])};
+        const std::vector<std::vector<BenchPlot>> plots{bench_plots(results[0], analyses[0].series, analyses[0].fronts, 0, "magnify")};
+        const Json json = bench_json(results, analyses, "bench");
+        EXPECT_EQ(bench_csv(json).find("scene,filter,"), 0u);
+        EXPECT_NE(bench_page(folder.path(), results, analyses, plots, json, {}, *executor).find("</html>"), std::string::npos);
+    }
+}
+
+TEST(Bench, LeavesATruthWhenItsTimeIsOver) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "pictures");
+    std::ostringstream out;
+    const Invocation invocation{"bench", out, out};
+    const auto executor = shading::make_executor(shading::default_executor_kind(), 1);
+    BenchPlan plan;
+    plan.scenes = {"magnify"};
+    plan.folder = folder.path();
+    plan.base.size = ImageSize{8, 8};
+    plan.budget = full_budget();
+    plan.start = ProgressReport::steady_seconds();
+    plan.seconds = 0.5;  // loading takes less, the prefiltered sky more
+    SweepFile file(folder / "sweep.jsonl", {});
+    ProgressReport progress(out, ProgressMode::Never, false);
+    const std::vector<SceneResults> results = run_bench(plan, file, invocation, *executor, progress, [](const std::string&) {});
+    EXPECT_TRUE(results[0].truths.empty());
+    EXPECT_TRUE(results[0].measurements.empty());
+}
+
+// --- Going on
 
 TEST(BenchResume, KeepsWhatWasFinished) {
     const TemporaryFolder folder;
