@@ -91,6 +91,9 @@ class BenchRunner {
         if (!loaded_.insert(name).second) options.warn = {};
         if (!options.warn) options.warn = [](const std::string&) {};
         stage.scene = std::make_unique<shading::Scene>(load_scene(name, plan_.base, options));
+        if (!plan_.base.policy.empty()) paths.push_back(plan_.base.policy);
+        const auto& environment = plan_.base.light.environment;
+        if (environment && environment->kind == EnvironmentKind::File) paths.push_back(environment->file);
         file_.check_files(name, paths);
         const ImageSize size = plan_.base.image_size();
         stage.view = choose_view(*stage.scene, plan_.base.view, float(size.width) / float(size.height));

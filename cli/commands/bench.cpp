@@ -104,8 +104,10 @@ void BenchCommand::check_shared() const {
     const bool draws = axes_.estimators.empty() || std::ranges::any_of(axes_.estimators, [](texunit::Estimator estimator) {
                            return estimator != texunit::Estimator::All;
                        });
+    const bool draws_otherwise = filtering.texture_jitter != shading::TextureJitter::None || filtering.blend == shading::Blend::Draw ||
+                                 filtering.shadow_taps == shading::ShadowTaps::One || draws_level(filtering.baseline);
     for (const auto& [name, value] : line_->given())
-        if (!draws && (name == "--taps" || name == "--random" || name == "--signed-numbers"))
+        if (!draws && (name == "--taps" || name == "--random" || name == "--signed-numbers" || (name == "--noise" && !draws_otherwise)))
             throw UsageError(name + ": --estimator all draws nothing");
 }
 
@@ -212,7 +214,7 @@ int BenchCommand::run(const Invocation& invocation) {
              "the time was over: " + std::to_string(late) + " configurations were not measured (the same command with --resume goes on)");
     else
         file.end();
-    invocation.out << "Measured: " << measured << " configurations";
+    invocation.out << "Measured: " << measured << (measured == 1 ? " configuration" : " configurations");
     if (kept > 0) invocation.out << ", " << kept << " of them before the interruption";
     invocation.out << "; left out: " << left_out << '\n' << "Saved: " << folder / "index.html" << '\n';
     return kDone;

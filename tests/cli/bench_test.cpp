@@ -296,6 +296,7 @@ TEST(Bench, RefusesWhatMakesNoSense) {
         {{"bench", "-o", out, "--hybrid-bias", "-1"}, "--hybrid-bias"},
         {{"bench", "-o", out, "--crop", "100,0,100,10"}, "reaches outside"},
         {{"bench", "-o", out, "--taps", "4", "--estimator", "all"}, "draws nothing"},
+        {{"bench", "-o", out, "--noise", "stbn", "--estimator", "all"}, "draws nothing"},
         {{"bench", "-o", out, "--frames", "4"}, "unknown option '--frames'"},
         {{"bench", "-o", out, "--quick", "--size", "1920x1080"}, "--quick: frames of 2073600 pixels"},
         {{"bench", "magnify", "-o", out, "--resume"}, "there is no sweep to go on with"},
@@ -497,6 +498,17 @@ TEST(BenchResume, RefusesASceneThatHasChanged) {
     ASSERT_EQ(run(with(words, {"--resume"})).code, kDone);
     test::write_file(scene, test::read_file(scene) + "\n");
     EXPECT_EQ(why_not_failed(run(with(words, {"--resume"})), kWrongUsage, "has changed since the sweep began"), "");
+}
+
+TEST(BenchResume, RefusesAPolicyThatHasChanged) {
+    const TemporaryFolder folder;
+    test::write_file(folder / "policy.json", "{}");
+    const Words words = bench_words(folder / "out", {"--filter", "bilinear", "--mip", "none", "--spp", "1", "--repeat", "1", "--reference",
+                                                     "0.05", "--policy", folder / "policy.json"});
+    ASSERT_EQ(run(words).code, kDone);
+    ASSERT_EQ(run(with(words, {"--resume"})).code, kDone);
+    test::write_file(folder / "policy.json", "{\"materials\": {}}");
+    EXPECT_EQ(why_not_failed(run(with(words, {"--resume"})), kWrongUsage, "policy.json' has changed since the sweep began"), "");
 }
 
 TEST(BenchResume, GoesOnAfterItWasKilled) {
