@@ -248,6 +248,7 @@ class BenchRunner {
         request.lookup.precision = texunit::Precision::Exact;
         request.samples.seed = ~plan_.base.samples.seed;
         request.samples.pixel_jitter = shading::PixelJitter::Frame;
+        request.samples.adaptive.reset();
 
         Truth truth;
         truth.scene = stage.name;
@@ -287,9 +288,10 @@ class BenchRunner {
     /// With the goal that ends after as many samples.
     std::string truth_command(const Truth& truth) const {
         // What leaves the truth no choice or is its own.
-        static const std::set<std::string> kOthers{"--lod-rule",  "--lod-bias",       "--derivatives",  "--footprint",   "--taps",
-                                                   "--random",    "--noise",          "--blend",        "--shadow-taps", "--texture-jitter",
-                                                   "--precision", "--signed-numbers", "--pixel-jitter", "--baseline",    "--seed"};
+        static const std::set<std::string> kOthers{"--lod-rule",     "--lod-bias",       "--derivatives", "--footprint",
+                                                   "--taps",         "--random",         "--noise",       "--blend",
+                                                   "--shadow-taps",  "--texture-jitter", "--precision",   "--signed-numbers",
+                                                   "--pixel-jitter", "--adaptive",       "--baseline",    "--seed"};
         std::vector<std::string> options;
         for (const auto& [name, value] : plan_.options) {
             if (kOthers.contains(name)) continue;
@@ -358,6 +360,7 @@ class BenchRunner {
         one.width = result.radiance.width;
         one.height = result.radiance.height;
         one.samples_shaded = result.samples_shaded;
+        one.mean_spp = shading::mean_samples(result);
         one.error = image_error(result.radiance.values, truth.values);
         const FlipComparison flip = flip_comparison({result.radiance, true}, {truth, true}, {}, executor_);
         one.flip = flip.figures.mean;

@@ -73,6 +73,7 @@ Json to_json(const Measurement& one) {
               {"times", {{"frame", one.frame_s}, {"geometry", one.geometry_s}, {"raster", one.raster_s}, {"shade", one.shade_s}}},
               {"lines_per_pixel", one.lines_per_pixel},
               {"texture", one.texture}};
+    if (one.mean_spp) json["image"]["mean_spp"] = *one.mean_spp;
     return json;
 }
 
@@ -94,6 +95,7 @@ Measurement measurement_from(const Json& json) {
     one.width = image.at("width");
     one.height = image.at("height");
     one.samples_shaded = image.at("samples_shaded");
+    if (image.contains("mean_spp")) one.mean_spp = image.at("mean_spp").get<double>();
     one.error = {number(json, "mse"),  number(json, "rmse"), number(json, "relmse"),
                  number(json, "psnr"), number(json, "max"),  number(json, "mean")};
     // Of equal images JSON has none.

@@ -37,6 +37,7 @@ struct Measurement {
     std::string picture;  ///< its file, from the sweep's folder
     int width = 0, height = 0;
     uint64_t samples_shaded = 0;
+    std::optional<double> mean_spp;  ///< of --adaptive, where `spp` is the most
     ImageError error;
     double flip = 0;  ///< mean; NaN where an image holds what is not finite
     std::string flip_kind;

@@ -99,6 +99,7 @@ void BenchCommand::check_shared() const {
     filtering.common_numbers = plain.common_numbers;
     shared.lookup.footprint.ellipse = 0;
     shared.lookup.footprint.area = shading::FootprintArea::Pixel;
+    shared.samples.spp = kMaxSamples;
     if (filtering.texture_jitter != shading::TextureJitter::None) shared.lookup.mip = texunit::MipMode::None;
     settle(shared);
     const bool draws = axes_.estimators.empty() || std::ranges::any_of(axes_.estimators, [](texunit::Estimator estimator) {

@@ -260,6 +260,22 @@ TEST(Bench, EllipsesAreAMinificationOfTheirOwn) {
     EXPECT_EQ(names, (std::vector<std::string>{"bspline mip linear", "bspline mip linear, aniso 4", "scene ewa 0.16666667"}));
 }
 
+TEST(Bench, LeavesTheTruthItsSamplesWhereBlocksStop) {
+    const TemporaryFolder folder;
+    const Json json = bench(folder / "out", {"--filter", "bilinear", "--mip", "none", "--estimator", "reservoir", "--spp", "4,64",
+                                             "--repeat", "1", "--reference", "0.05", "--adaptive", "0.1"});
+    ASSERT_EQ(json.at("configurations").size(), 1u);
+    const Json& one = json.at("configurations")[0];
+    EXPECT_EQ(one.at("image").at("spp"), 64);
+    EXPECT_LT(one.at("image").at("mean_spp").get<double>(), 64);
+    expect_rendered(folder, one);
+    expect_rendered(folder, json.at("scenes")[0].at("truths")[0]);
+    bool said = false;
+    for (const Json& left : json.at("scenes")[0].at("left_out"))
+        said = said || left.at("reason").get<std::string>().starts_with("--adaptive: ");
+    EXPECT_TRUE(said);
+}
+
 TEST(Bench, AnImageThatEqualsTheTruthHasNoLogarithm) {
     const TemporaryFolder folder;
     // Nothing but the background is in view.
