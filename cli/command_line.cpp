@@ -46,12 +46,14 @@ struct CommandLine::Impl {
     std::optional<Arguments> arguments;
     std::vector<ValuedFlag> valued_flags;
     std::vector<RepeatedOption> repeated_options;
+    std::vector<std::pair<std::string, std::string>> given;
     bool help = false;
 
+    void add_option(const std::string& names, const std::string& value, Reader read);
     std::vector<std::string> option_names() const;
     void check_for_repeats() const;
     std::vector<std::string> take_valued_flags(const std::vector<std::string>& words);
-    std::vector<std::string> take_repeated_options(const std::vector<std::string>& words) const;
+    std::vector<std::string> take_repeated_options(const std::vector<std::string>& words);
     void take_remaining(const std::vector<std::string>& remaining);
     [[noreturn]] void throw_unknown_option(const std::string& word) const;
 };
@@ -85,6 +87,7 @@ std::vector<std::string> CommandLine::Impl::take_valued_flags(const std::vector<
         }
         if (flag->given) throw UsageError(flag->name + ": given more than once ('" + *flag->given + "' and '" + *word + "')");
         flag->given = *word;
+        given.emplace_back(*word, "");
         flag->read(word->size() > flag->name.size() ? word->substr(flag->name.size() + 1) : "");
     }
     others.insert(others.end(), end, words.end());
@@ -92,7 +95,7 @@ std::vector<std::string> CommandLine::Impl::take_valued_flags(const std::vector<
 }
 
 // Reads the words that are repeated options and their values, and returns the others.
-std::vector<std::string> CommandLine::Impl::take_repeated_options(const std::vector<std::string>& words) const {
+std::vector<std::string> CommandLine::Impl::take_repeated_options(const std::vector<std::string>& words) {
     std::vector<std::string> others;
     const auto end = std::ranges::find(words, "--");
     for (auto word = words.begin(); word != end; ++word) {
@@ -108,6 +111,7 @@ std::vector<std::string> CommandLine::Impl::take_repeated_options(const std::vec
             value = *++word;
         if (value.empty()) throw UsageError(option->name + ": a value is missing (" + option->value + ")");
         option->read(value);
+        given.emplace_back(option->name, value);
     }
     others.insert(others.end(), end, words.end());
     return others;
@@ -149,13 +153,18 @@ CommandLine::~CommandLine() = default;
 
 void CommandLine::group(std::string heading) { impl_->entries.push_back({std::move(heading), {}, {}}); }
 
-void CommandLine::option(const std::string& names, const std::string& value, const std::string& help, Reader read) {
+void CommandLine::Impl::add_option(const std::string& names, const std::string& value, Reader read) {
     const std::string shown = split(names, ',').back();
-    impl_->app.add_option_function<std::string>(names, [shown, value, read = std::move(read)](const std::string& text) {
+    app.add_option_function<std::string>(names, [this, shown, value, read = std::move(read)](const std::string& text) {
         // "--size --spp 4": the next option is not the value of the one before.
         if (text.empty() || text.starts_with("--")) throw UsageError(shown + ": a value is missing (" + value + ")");
         read(text);
+        given.emplace_back(shown, text);
     });
+}
+
+void CommandLine::option(const std::string& names, const std::string& value, const std::string& help, Reader read) {
+    impl_->add_option(names, value, std::move(read));
     impl_->entries.push_back({{}, names + " " + value, help});
 }
 
@@ -166,7 +175,11 @@ void CommandLine::repeated_option(const std::string& name, const std::string& va
 }
 
 void CommandLine::flag(const std::string& names, const std::string& help, bool& set) {
-    impl_->app.add_flag_callback(names, [&set] { set = true; });
+    const std::string shown = split(names, ',').back();
+    impl_->app.add_flag_callback(names, [impl = impl_.get(), shown, &set] {
+        set = true;
+        impl->given.emplace_back(shown, "");
+    });
     impl_->entries.push_back({{}, names, help});
 }
 
@@ -174,6 +187,13 @@ void CommandLine::flag_with_value(const std::string& name, const std::string& va
     impl_->app.add_flag(name);  // so that misspelt options find it
     impl_->valued_flags.push_back({name, std::move(read), {}});
     impl_->entries.push_back({{}, name + "[:" + value + "]", help});
+}
+
+void CommandLine::replace_option(const std::string& name, const std::string& value, const std::string& help, Reader read) {
+    impl_->app.remove_option(impl_->app.get_option(name));
+    impl_->add_option(name, value, std::move(read));
+    const auto entry = std::ranges::find_if(impl_->entries, [&](const Impl::HelpEntry& each) { return split(each.left, ' ')[0] == name; });
+    *entry = {{}, name + " " + value, help};
 }
 
 void CommandLine::arguments(std::string name, std::string help, size_t least, size_t most, std::vector<std::string>& words) {
@@ -198,6 +218,8 @@ bool CommandLine::parse(const std::vector<std::string>& words) {
     impl_->take_remaining(impl_->app.remaining());
     return true;
 }
+
+const std::vector<std::pair<std::string, std::string>>& CommandLine::given() const { return impl_->given; }
 
 // "-o=FILE" becomes "-o FILE": the argument library would take "=FILE" for the value.
 std::vector<std::string> CommandLine::separate_short_values(const std::vector<std::string>& words) const {

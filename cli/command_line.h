@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace rawtexel::cli {
@@ -32,6 +33,9 @@ class CommandLine {
     void flag(const std::string& names, const std::string& help, bool& set);
     /// A flag that may carry a value behind a colon: "--ewa" or "--ewa:0.25". `read` gets the value, empty without one.
     void flag_with_value(const std::string& name, const std::string& value, const std::string& help, Reader read);
+    /// Takes the place of the option `name`, such as "--filter", declared before: another value, help and reader, in the same place of the
+    /// help.
+    void replace_option(const std::string& name, const std::string& value, const std::string& help, Reader read);
     /// The words that are no options, at least `least` and at most `most` of them. `name` is for help and errors.
     void arguments(std::string name, std::string help, size_t least, size_t most, std::vector<std::string>& words);
 
@@ -40,6 +44,8 @@ class CommandLine {
     std::string help() const;
     /// True for an option that takes a value as its next word.
     bool takes_value(std::string_view option) const;
+    /// What parse() read: long names with their values, empty for flags, in the order of the declarations.
+    const std::vector<std::pair<std::string, std::string>>& given() const;
 
   private:
     std::vector<std::string> separate_short_values(const std::vector<std::string>& words) const;

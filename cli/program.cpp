@@ -1,6 +1,7 @@
 #include "cli/program.h"
 
 #include "cli/command.h"
+#include "cli/commands/bench.h"
 #include "cli/commands/compare.h"
 #include "cli/commands/explain.h"
 #include "cli/commands/export.h"
@@ -28,11 +29,11 @@ namespace rawtexel::cli {
 namespace {
 
 using Words = std::vector<std::string>;
-using Commands = std::array<std::unique_ptr<Command>, 8>;
+using Commands = std::array<std::unique_ptr<Command>, 9>;
 
 Commands all_commands() {
-    return {make_render_command(), make_profile_command(), make_compare_command(), make_explain_command(),
-            make_sample_command(), make_texture_command(), make_list_command(),    make_export_command()};
+    return {make_render_command(), make_profile_command(), make_bench_command(), make_compare_command(), make_explain_command(),
+            make_sample_command(), make_texture_command(), make_list_command(),  make_export_command()};
 }
 
 std::vector<std::string> names_of(const Commands& commands) {

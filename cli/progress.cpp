@@ -11,8 +11,9 @@ namespace {
 
 constexpr double kQuietSeconds = 1.0;  // Auto says nothing before
 constexpr double kRedrawSeconds = 0.1;
-constexpr double kLineSeconds = 1.0;  // Auto's lines are no closer
-constexpr int kBarWidth = 30;         // characters
+constexpr double kLineSeconds = 1.0;   // Auto's lines are no closer
+constexpr double kLeftSeconds = 5.0;  // of a phase, until plain lines tell the time left
+constexpr int kBarWidth = 30;          // characters
 constexpr const char* kEraseLine = "\r\033[K";
 
 }  // namespace
@@ -41,10 +42,11 @@ bool ProgressReport::is_quiet(double now) const {
     return mode_ == ProgressMode::Never || (mode_ == ProgressMode::Auto && now - start_ < kQuietSeconds);
 }
 
-void ProgressReport::begin(std::string_view phase, double samples) {
+void ProgressReport::begin(std::string_view phase, double amount, std::string_view unit) {
     const std::lock_guard lock(mutex_);
     phase_ = phase;
-    samples_ = samples;
+    amount_ = amount;
+    unit_ = unit;
     phase_start_ = clock_();
     share_ = 0.0;
     last_tenth_ = 0;
@@ -89,7 +91,7 @@ void ProgressReport::draw_bar(double now) {
     last_drawn_ = now;
     bar_shown_ = true;
     out_ << kEraseLine;
-    if (samples_ == 0.0) {
+    if (amount_ == 0.0) {
         out_ << phase_ << std::flush;
         return;
     }
@@ -97,7 +99,7 @@ void ProgressReport::draw_bar(double now) {
     out_ << '[' << std::string(size_t(filled), '#') << std::string(size_t(kBarWidth - filled), '.') << "] " << int(share_ * 100.0) << " %";
     const double elapsed = now - phase_start_;
     if (elapsed > 0.0 && share_ > 0.0)
-        out_ << "  " << print_quantity(samples_ * share_ / elapsed) << "samples/s  " << print_duration(elapsed * (1.0 - share_) / share_)
+        out_ << "  " << print_quantity(amount_ * share_ / elapsed) << unit_ << "/s  " << print_duration(elapsed * (1.0 - share_) / share_)
              << " left";
     out_ << std::flush;
 }
@@ -111,7 +113,10 @@ void ProgressReport::print_line(double share, double now) {
     last_tenth_ = tenth;
     last_drawn_ = now;
     lines_shown_ = true;
-    out_ << "rawtexel: " << tenth * 10 << " % after " << print_duration(now - phase_start_) << '\n' << std::flush;
+    const double elapsed = now - phase_start_;
+    out_ << "rawtexel: " << tenth * 10 << " % after " << print_duration(elapsed);
+    if (amount_ > 0.0 && tenth < 10 && elapsed >= kLeftSeconds) out_ << ", " << print_duration(elapsed * (1.0 - share) / share) << " left";
+    out_ << '\n' << std::flush;
 }
 
 void ProgressReport::erase_line() {

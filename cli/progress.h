@@ -26,8 +26,8 @@ class ProgressReport {
     ProgressReport(const ProgressReport&) = delete;
     ProgressReport& operator=(const ProgressReport&) = delete;
 
-    /// Begins the next phase, such as "loading". `samples`: what it computes, for the rate; 0 where it computes none.
-    void begin(std::string_view phase, double samples = 0.0);
+    /// Begins the next phase, such as "loading". `amount`: how many `unit` it computes, for the rate; 0 where it computes none.
+    void begin(std::string_view phase, double amount = 0.0, std::string_view unit = "samples");
     /// From any thread; `share` 0..1 of the phase. A share below one seen before changes nothing.
     void update(double share);
     void finish();
@@ -48,8 +48,8 @@ class ProgressReport {
     const Clock clock_;
     const double start_;
     std::mutex mutex_;  // guards what follows and the stream
-    std::string phase_;
-    double samples_ = 0.0, phase_start_ = 0.0;
+    std::string phase_, unit_;
+    double amount_ = 0.0, phase_start_ = 0.0;
     double share_ = 0.0;
     double last_drawn_ = 0.0;  // seconds
     int last_tenth_ = 0;

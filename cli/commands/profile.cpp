@@ -6,6 +6,7 @@
 #include "cli/metadata.h"
 #include "cli/option_values.h"
 #include "cli/output_files.h"
+#include "cli/output_folder.h"
 #include "cli/profile_page.h"
 #include "cli/profile_report.h"
 #include "cli/profile_run.h"
@@ -17,7 +18,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <span>
 
@@ -25,29 +25,6 @@ namespace rawtexel::cli {
 namespace {
 
 using shading::PixelCount;
-
-/// The folder that results go into: made where it is missing, and taken away again when nothing came to be in it.
-class OutputFolder {
-  public:
-    explicit OutputFolder(std::string path) : path_(std::move(path)) {
-        std::error_code error;
-        is_new_ = std::filesystem::create_directory(path_, error);
-        if (error || !std::filesystem::is_directory(path_, error))
-            throw scenes::OutputError(path_ + ": cannot be made a folder (" + (error ? error.message() : "it is a file") + ")");
-    }
-    ~OutputFolder() {
-        std::error_code ignored;  // a folder that holds something stays
-        if (is_new_) std::filesystem::remove(path_, ignored);
-    }
-    OutputFolder(const OutputFolder&) = delete;
-    OutputFolder& operator=(const OutputFolder&) = delete;
-
-    std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-
-  private:
-    std::string path_;
-    bool is_new_ = false;
-};
 
 std::string heat_map_name(PixelCount count) { return "heat-" + std::string(to_string(count)) + ".png"; }
 

@@ -11,8 +11,11 @@
 namespace rawtexel::cli {
 namespace {
 
-constexpr double kWidth = 720, kHeight = 420;
-constexpr double kLeft = 72, kRight = 180, kTop = 40, kBottom = 56;  ///< beside the axes; the legend is on the right
+constexpr double kLeft = 72, kTop = 40, kBottom = 56;  ///< beside the axes
+constexpr double kInnerWidth = 468, kLeastHeight = 420;
+constexpr double kLegendRow = 18, kLegendGlyph = 44;  ///< what a row's line takes before its name
+constexpr double kLeastRight = 180, kLetter = 6.4;    ///< the legend's room on the right, by the longest name
+constexpr const char* kThinDash = "1 3";
 
 /// Okabe and Ito 2008, "Color Universal Design", without the yellow that white paper swallows.
 constexpr std::array kColors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"};
@@ -37,6 +40,29 @@ std::string escaped(const std::string& text) {
         }
     }
     return result;
+}
+
+/// The document's extents.
+struct Extents {
+    double width = 0, height = 0;
+    double right() const { return kLeft + kInnerWidth; }
+    double bottom() const { return height - kBottom; }
+};
+
+/// Letters, not bytes.
+size_t length(const std::string& text) {
+    return size_t(std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+Extents extents_of(const Plot& plot) {
+    size_t rows = 0, longest = 0;
+    for (const PlotSeries& series : plot.series) {
+        if (series.name.empty()) continue;
+        ++rows;
+        longest = std::max(longest, length(series.name));
+    }
+    return {kLeft + kInnerWidth + std::max(kLeastRight, kLegendGlyph + kLetter * double(longest)),
+            std::max(kLeastHeight, kTop + kLegendRow * (double(rows) + 1))};
 }
 
 /// From values to the page.
@@ -82,8 +108,8 @@ std::string text_at(double x, double y, const char* anchor, const std::string& t
            "</text>\n";
 }
 
-std::string axes(const Plot& plot, const Scale& x, const Scale& y) {
-    const double left = kLeft, right = kWidth - kRight, top = kTop, bottom = kHeight - kBottom;
+std::string axes(const Plot& plot, const Extents& extents, const Scale& x, const Scale& y) {
+    const double left = kLeft, right = extents.right(), top = kTop, bottom = extents.bottom();
     std::string svg;
     for (const double tick : x.ticks()) {
         svg += line(x.at(tick), top, x.at(tick), bottom, "#ddd");
@@ -94,20 +120,32 @@ std::string axes(const Plot& plot, const Scale& x, const Scale& y) {
         svg += text_at(left - 8, y.at(tick) + 4, "end", print_number(float(tick)));
     }
     svg += line(left, bottom, right, bottom, "#333") + line(left, top, left, bottom, "#333");
-    svg += text_at((left + right) / 2, kHeight - 14, "middle", plot.x.label);
+    svg += text_at((left + right) / 2, extents.height - 14, "middle", plot.x.label);
     const double middle = (top + bottom) / 2;
     svg += text_at(16, middle, "middle", plot.y.label, " transform=\"rotate(-90 16 " + number(middle) + ")\"");
     return svg + text_at((left + right) / 2, 22, "middle", plot.title, " font-weight=\"bold\"");
 }
 
-std::string stroke_of(size_t series) {
-    const std::string dash = kDashes[series % kDashes.size()];
-    return std::string("stroke=\"") + kColors[series % kColors.size()] + "\" stroke-width=\"1.8\"" +
+const char* color_of(const PlotSeries& series, size_t index) {
+    if (series.color == kGrey) return "#777777";
+    return kColors[(series.color < 0 ? index : size_t(series.color)) % kColors.size()];
+}
+
+std::string stroke_of(const PlotSeries& series, size_t index) {
+    const std::string dash = series.thin ? kThinDash : kDashes[(series.dash < 0 ? index : size_t(series.dash)) % kDashes.size()];
+    return std::string("stroke=\"") + color_of(series, index) + "\" stroke-width=\"" + (series.thin ? "1" : "1.8") + "\"" +
            (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\"");
 }
 
-std::string marker(double x, double y, const char* color) {
-    return "<circle cx=\"" + number(x) + "\" cy=\"" + number(y) + "\" r=\"3\" fill=\"" + color + "\"/>\n";
+std::string marker(const PlotPoint& point, double x, double y, const char* color) {
+    const auto circle = [&](const char* radius, const std::string& more) {
+        return "<circle cx=\"" + number(x) + "\" cy=\"" + number(y) + "\" r=\"" + radius + "\" " + more;
+    };
+    std::string svg = point.ringed ? circle("7", std::string("stroke=\"") + color + "\" stroke-width=\"1.5\"/>\n") : "";
+    const std::string fill = std::string("fill=\"") + (point.hollow ? "#fff" : color) + "\"" +
+                             (point.hollow ? std::string(" stroke=\"") + color + "\" stroke-width=\"1.2\"" : "");
+    svg += circle("3", fill + (point.key >= 0 ? " data-key=\"" + std::to_string(point.key) + "\"" : ""));
+    return svg + (point.note.empty() ? "/>\n" : "><title>" + escaped(point.note) + "</title></circle>\n");
 }
 
 std::string curve(const PlotSeries& series, size_t index, const Scale& x, const Scale& y) {
@@ -117,20 +155,23 @@ std::string curve(const PlotSeries& series, size_t index, const Scale& x, const 
         const bool shown = x.shows(point.x) && y.shows(point.y);
         if (shown) {
             path += (joined ? "L" : "M") + number(x.at(point.x)) + " " + number(y.at(point.y));
-            if (series.markers) markers += marker(x.at(point.x), y.at(point.y), kColors[index % kColors.size()]);
+            if (series.markers) markers += marker(point, x.at(point.x), y.at(point.y), color_of(series, index));
         }
         joined = shown;
     }
-    return path.empty() ? "" : "<path d=\"" + path + "\" " + stroke_of(index) + "/>\n" + markers;
+    return path.empty() ? "" : "<path d=\"" + path + "\" " + stroke_of(series, index) + "/>\n" + markers;
 }
 
-std::string legend(const Plot& plot) {
+std::string legend(const Plot& plot, const Extents& extents) {
     std::string svg;
-    const double left = kWidth - kRight + 14;
+    const double left = extents.right() + 14;
+    double y = kTop + 10;
     for (size_t i = 0; i < plot.series.size(); ++i) {
-        const double y = kTop + 10 + 18 * double(i);
-        svg += "<path d=\"M" + number(left) + " " + number(y) + "h24\" " + stroke_of(i) + "/>\n";
-        svg += text_at(left + 30, y + 4, "start", plot.series[i].name);
+        const PlotSeries& series = plot.series[i];
+        if (series.name.empty()) continue;
+        svg += "<path d=\"M" + number(left) + " " + number(y) + "h24\" " + stroke_of(series, i) + "/>\n";
+        svg += text_at(left + 30, y + 4, "start", series.name);
+        y += kLegendRow;
     }
     return svg;
 }
@@ -179,13 +220,15 @@ std::vector<double> axis_ticks(double least, double most, bool logarithmic) {
 }
 
 std::string plot_svg(const Plot& plot) {
-    const Scale x = scale_of(plot, plot.x, &PlotPoint::x, kLeft, kWidth - kRight);
-    const Scale y = scale_of(plot, plot.y, &PlotPoint::y, kHeight - kBottom, kTop);
-    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(kWidth) + " " + number(kHeight) +
+    const Extents extents = extents_of(plot);
+    const Scale x = scale_of(plot, plot.x, &PlotPoint::x, kLeft, extents.right());
+    const Scale y = scale_of(plot, plot.y, &PlotPoint::y, extents.bottom(), kTop);
+    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(extents.width) + " " + number(extents.height) +
                       "\" font-family=\"sans-serif\" font-size=\"12\" fill=\"#222\">\n<title>" + escaped(plot.title) +
-                      "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" + axes(plot, x, y) + "<g fill=\"none\">\n";
+                      "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" + axes(plot, extents, x, y) +
+                      "<g fill=\"none\">\n";
     for (size_t i = 0; i < plot.series.size(); ++i) svg += curve(plot.series[i], i, x, y);
-    return svg + "</g>\n" + legend(plot) + "</svg>\n";
+    return svg + "</g>\n" + legend(plot, extents) + "</svg>\n";
 }
 
 }  // namespace rawtexel::cli

@@ -50,6 +50,32 @@ TEST(CommandLine, TheOrderOfWordsDoesNotMatter) {
     EXPECT_EQ(orders, 24);
 }
 
+TEST(CommandLine, TellsWhatWasGiven) {
+    Sample sample;
+    bool flagged = false;
+    sample.line.flag_with_value("--ewa", "S2", "an ellipse", [](const std::string&) {});
+    sample.line.repeated_option("--more", "X", "again", [](const std::string&) {});
+    sample.line.flag("-q,--quick", "fast", flagged);
+    ASSERT_TRUE(sample.line.parse({"a", "-q", "--more", "1", "-o=b", "--ewa:0.5", "--more", "2", "--size=1x2"}));
+    std::vector<std::pair<std::string, std::string>> given = sample.line.given();
+    std::ranges::sort(given);
+    const std::vector<std::pair<std::string, std::string>> expected{{"--ewa:0.5", ""}, {"--more", "1"}, {"--more", "2"},
+                                                                    {"--output", "b"}, {"--quick", ""}, {"--size", "1x2"}};
+    EXPECT_EQ(given, expected);
+}
+
+TEST(CommandLine, AnOptionTakesThePlaceOfAnother) {
+    Sample sample;
+    std::string list;
+    sample.line.replace_option("--size", "LIST", "many sizes", [&](const std::string& text) { list = text; });
+    ASSERT_TRUE(sample.line.parse({"a", "--size", "1x2,3x4", "-o", "b"}));
+    EXPECT_EQ(list, "1x2,3x4");
+    EXPECT_EQ(sample.size, "");
+    const std::string help = sample.line.help();
+    EXPECT_NE(help.find("Image:\n  --size LIST"), std::string::npos) << help;
+    EXPECT_EQ(help.find("WxH"), std::string::npos) << help;
+}
+
 TEST(CommandLine, ValuesMayFollowAnEqualsSign) {
     Sample sample;
     ASSERT_TRUE(sample.line.parse({"a", "--size=1x2", "--output=b"}));

@@ -61,6 +61,26 @@ TEST(PlotSvg, DrawsWhatItIsGiven) {
     EXPECT_EQ(plot_svg({}).find("nan"), std::string::npos);
 }
 
+TEST(PlotSvg, MarksPointsAsTheyAre) {
+    const PlotPoint ringed{.x = 1, .y = 1, .ringed = true, .note = "a < b", .key = 7}, hollow{.x = 2, .y = 2, .hollow = true};
+    const std::string svg = plot_svg({.title = "", .x = {}, .y = {}, .series = {{"s", {ringed, hollow}, true}}});
+    EXPECT_EQ(count(svg, "<circle"), 3u);
+    EXPECT_EQ(count(svg, "data-key=\"7\""), 1u);
+    EXPECT_EQ(count(svg, "<title>a &lt; b</title></circle>"), 1u);
+    EXPECT_EQ(count(svg, "fill=\"#fff\" stroke="), 1u);
+}
+
+TEST(PlotSvg, MakesRoomForItsLegend) {
+    Plot plot{.title = "", .x = {}, .y = {}, .series = {}};
+    for (int i = 0; i < 40; ++i) plot.series.push_back({.name = i == 3 ? std::string(60, 'x') : "s", .points = {{0, 0}, {1, 1}}});
+    plot.series.push_back({.name = "", .points = {{0, 0}, {1, 1}}, .thin = true});
+    const std::string svg = plot_svg(plot);
+    EXPECT_NE(svg.find("viewBox=\"0 0 968 778\""), std::string::npos) << svg.substr(0, 200);
+    EXPECT_NE(plot_svg({}).find("viewBox=\"0 0 720 420\""), std::string::npos);
+    EXPECT_EQ(count(svg, "h24"), 40u);  // nothing in the legend without a name
+    EXPECT_EQ(count(svg, "stroke-dasharray=\"1 3\""), 1u);
+}
+
 TEST(KernelPlot, HasTheKernelsShapes) {
     const std::vector<Kernel> kernels{Kernel::Bilinear, Kernel::BSpline, Kernel::CatmullRom, Kernel::Lanczos3};
     const Plot plot = kernel_plot(kernels);

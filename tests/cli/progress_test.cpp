@@ -47,7 +47,7 @@ TEST(Progress, PlainLinesComeEveryTenPercentAndNoOftener) {
     report.run(1000, 100.0);
     const std::string text = report.out.str();
     EXPECT_EQ(std::ranges::count(text, '\n'), 10) << text;
-    EXPECT_EQ(text.substr(0, text.find('\n')), "rawtexel: 10 % after 0:10");
+    EXPECT_EQ(text.substr(0, text.find('\n')), "rawtexel: 10 % after 0:10, 1:30 left");
     EXPECT_TRUE(text.ends_with("rawtexel: 100 % after 1:40\n")) << text;
     EXPECT_EQ(text.find('\r'), std::string::npos);
 }
@@ -116,6 +116,14 @@ TEST(Progress, ATerminalGetsABarWithRateAndTimeLeft) {
     EXPECT_EQ(text.find('\n'), std::string::npos);
     report.progress.finish();
     EXPECT_TRUE(report.out.str().ends_with("\r\033[K"));
+}
+
+TEST(Progress, TheRateIsOfWhatThePhaseComputes) {
+    Report report(ProgressMode::Auto, true);
+    report.progress.begin("measuring", 4e6, "shaded texels");
+    report.now += 10.0;
+    report.progress.update(0.25);
+    EXPECT_NE(report.out.str().find("100 kshaded texels/s"), std::string::npos) << report.out.str();
 }
 
 TEST(Progress, TheBarNeverGoesBack) {
