@@ -3,6 +3,7 @@
 #include "cli/counters.h"
 #include "cli/option_values.h"
 #include "cli/reports/kernel_plot.h"
+#include "cli/vectors/suite.h"
 #include "scenes/builtin.h"
 #include "scenes/output_file.h"
 #include "shading/baseline.h"
@@ -41,14 +42,15 @@ Entries filter_entries() {
 }
 
 Entries entries_for(const std::string& subject) {
-    switch (parse_word("list", subject, {"scenes", "filters", "estimators", "noises", "baselines", "formats", "counters"})) {
+    switch (parse_word("list", subject, {"scenes", "filters", "estimators", "noises", "baselines", "formats", "counters", "suites"})) {
         case 0: return entries_of(scenes::builtin_scenes());
         case 1: return filter_entries();
         case 2: return entries_of(texunit::all_estimators());
         case 3: return entries_of(texunit::all_noises());
         case 4: return entries_of(shading::all_baselines());
         case 5: return entries_of(texunit::all_formats());
-        default: return entries_of(all_counters());
+        case 6: return entries_of(all_counters());
+        default: return entries_of(all_suites());
     }
 }
 
