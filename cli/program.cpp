@@ -10,6 +10,7 @@
 #include "cli/commands/sample.h"
 #include "cli/commands/texture.h"
 #include "cli/commands/vectors.h"
+#include "cli/commands/verify_shader.h"
 #include "cli/run_record.h"
 #include "cli/version.h"
 #include "cli/word_list.h"
@@ -29,11 +30,11 @@ namespace rawtexel::cli {
 namespace {
 
 using Words = std::vector<std::string>;
-using Commands = std::array<std::unique_ptr<Command>, 9>;
+using Commands = std::array<std::unique_ptr<Command>, 10>;
 
 Commands all_commands() {
     return {make_render_command(),  make_profile_command(), make_compare_command(), make_explain_command(), make_sample_command(),
-            make_texture_command(), make_list_command(),    make_export_command(),  make_vectors_command()};
+            make_texture_command(), make_list_command(),    make_export_command(),  make_vectors_command(), make_verify_shader_command()};
 }
 
 std::vector<std::string> names_of(const Commands& commands) {

@@ -1,0 +1,15 @@
+// Why a port's answer is not legal: known faults are tried on the case until one answers what came.
+#pragma once
+
+#include "cli/vectors/suite.h"
+
+#include <span>
+#include <string>
+
+namespace rawtexel::cli {
+
+/// The first known fault under which the answer to case `index` would be what came, such as "half a texel left"; empty where none explains
+/// it. `results`: all that came, for the neighbours of a case may be at fault.
+std::string likely_cause(const Suite& suite, size_t index, std::span<const PortResult> results);
+
+}  // namespace rawtexel::cli

@@ -1,0 +1,31 @@
+// Holds what a port answered against what is legal.
+#pragma once
+
+#include "cli/vectors/suite.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace rawtexel::cli {
+
+/// A case whose answer is not legal.
+struct CaseFailure {
+    size_t index = 0;
+    PortResult came;
+    uint32_t words = 0;  ///< those of the answer that are not legal, one bit each
+    std::string cause;   ///< the likeliest; empty where none is known
+};
+
+struct SuiteVerdict {
+    std::vector<CaseFailure> failures;  ///< in the order of the cases
+    bool holds() const { return failures.empty(); }
+};
+
+/// Bits of the judged words that lie outside their interval; what is not a number never lies inside.
+uint32_t illegal_words(const Expectation& expectation, const PortResult& came);
+
+/// One result a case. Causes are looked for in the first failures of every group.
+SuiteVerdict judge_results(const Suite& suite, std::span<const PortResult> results);
+
+}  // namespace rawtexel::cli
