@@ -9,7 +9,7 @@ void main() {
     index += first_case;
     uint op = case_uint(index, 0u);
     Result r = no_result();
-    if (op == OP_SAMPLE) r = sample_case(index);
+    if (op == OP_SAMPLE) r = filter_case(index);
     if (op == OP_WRAP_INDEX) r.texel.x = wrap_index(case_uint(index, 2u), case_int(index, 45u), case_int(index, 46u));
     write_result(index, r);
 }

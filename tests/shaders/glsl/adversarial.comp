@@ -9,10 +9,8 @@ void main() {
     index += first_case;
     uint op = case_uint(index, 0u);
     Result r = no_result();
-    if (op == OP_SAMPLE) r = sample_case(index);
-    if (op == OP_DRAW) r = draw_case(index);
-    if (op == OP_MEAN) r = mean_case(index);
-    if (op == OP_SHADE) r = shade_case(index);
+    if (op == OP_SAMPLE || op == OP_SHADE) r = filter_case(index);
+    if (op == OP_DRAW || op == OP_MEAN) r = draw_case(index);
     if (op == OP_RANDOM) {
         r.bits = random_bits(case_address(index));
         r.value.x = unit_float(r.bits);

@@ -95,35 +95,38 @@ Result draw_lookup(Lookup l, DrawNumbers n) {
         }
         r.weight = 1.0;
     } else {
-        AxisTaps x = lookup_taps(l, k, 0, level, moved.x), y = lookup_taps(l, k, 1, level, moved.y), z;
-        z.first = 0;
-        z.count = 1;
-        z.weight[0] = 1.0;
-        if (axes == 3) z = lookup_taps(l, k, 2, level, 0.0);
+        AxisTaps taps[3] = level_taps(l, k, level, moved);
         bool lobes = has_negative_lobes(k);
         if (!lobes || l.estimator == ESTIMATOR_ABS_WEIGHT) {
             int by = l.estimator == ESTIMATOR_ABS_WEIGHT ? LOBES_MAGNITUDE : LOBES_ALL;
-            ivec3 tap = ivec3(reservoir_tap(x, by, n.tap.x), reservoir_tap(y, by, n.tap.y), reservoir_tap(z, by, n.tap.z));
-            i = ivec3(x.first, y.first, z.first) + tap;
+            ivec3 tap;
+            for (int axis = 0; axis < 3; ++axis) {
+                tap[axis] = reservoir_tap(taps[axis], by, n.tap[axis]);
+                i[axis] = taps[axis].first + tap[axis];
+            }
             r.weight = 1.0;
             if (by == LOBES_MAGNITUDE) {
                 // By the magnitude of its weight, with its sign: noisy even on a constant.
-                float product = x.weight[tap.x] * y.weight[tap.y] * z.weight[tap.z];
-                r.weight = sign(product) * lobe_mass(x, by) * lobe_mass(y, by) * lobe_mass(z, by);
+                for (int axis = 0; axis < 3; ++axis) r.weight *= sign(taps[axis].weight[tap[axis]]) * lobe_mass(taps[axis], by);
             }
         } else {
-            SignedMasses m = signed_masses(x, y);
-            if (axes == 3) {
-                m.positive.z = lobe_mass(z, LOBES_POSITIVE);
-                m.negative.z = lobe_mass(z, LOBES_NEGATIVE);
+            SignedMasses m;
+            for (int axis = 0; axis < 3; ++axis) {
+                m.positive[axis] = lobe_mass(taps[axis], LOBES_POSITIVE);
+                m.negative[axis] = lobe_mass(taps[axis], LOBES_NEGATIVE);
             }
             r.negative_weight = negative_mass(m);
             r.weight = 1.0 + r.negative_weight;
-            bvec3 s = draw_signs(m, false, n.sign_);
-            i = ivec3(signed_texel(x, s.x, n.tap.x), signed_texel(y, s.y, n.tap.y), signed_texel(z, s.z, n.tap.z));
+            // The positive texel, and where there is a negative weight a texel for that.
+            ivec3 j = ivec3(0);
+            for (int side = 0; side < (r.negative_weight > 0.0 ? 2 : 1); ++side) {
+                bool negative = side == 1;
+                bvec3 s = draw_signs(m, negative, negative ? n.negative_sign : n.sign_);
+                for (int axis = 0; axis < 3; ++axis)
+                    j[axis] = signed_texel(taps[axis], s[axis], negative ? n.negative_tap[axis] : n.tap[axis]);
+                if (!negative) i = j;
+            }
             if (r.negative_weight > 0.0) {
-                s = draw_signs(m, true, n.negative_sign);
-                ivec3 j = ivec3(signed_texel(x, s.x, n.negative_tap.x), signed_texel(y, s.y, n.negative_tap.y), signed_texel(z, s.z, n.negative_tap.z));
                 r.negative_texel = drawn_texel(l, level, j, n.negative_tap.z);
                 r.value = -r.negative_weight * drawn_value(l, level, r.negative_texel);
             }
@@ -138,23 +141,27 @@ Result draw_lookup(Lookup l, DrawNumbers n) {
     return r;
 }
 
-Result draw_case(uint index) { return draw_lookup(load_lookup(index), case_numbers(index)); }
-
 RandomAddress case_address(uint index) {
     return RandomAddress(uvec2(case_uint(index, 47u), case_uint(index, 48u)), case_uint(index, 49u), case_uint(index, 50u),
                          case_uint(index, 51u), case_uint(index, 52u));
 }
 
-// The mean of draws with the numbers of samples s, s + 1, ...
-Result mean_case(uint index) {
+// OP_DRAW, and OP_MEAN: the mean of draws with the numbers of samples s, s + 1, ...
+Result draw_case(uint index) {
     Lookup l = load_lookup(index);
+    bool mean = case_uint(index, 0u) == OP_MEAN;
     RandomAddress a = case_address(index);
-    uint count = case_uint(index, 55u);
+    uint count = mean ? case_uint(index, 55u) : 1u;
+    vec4 sum = vec4(0.0);
     Result r = no_result();
     for (uint s = 0u; s < count; ++s) {
-        r.value += draw_lookup(l, random_numbers(a)).value / float(count);
+        DrawNumbers numbers = case_numbers(index);
+        if (mean) numbers = random_numbers(a);
+        r = draw_lookup(l, numbers);
+        sum += r.value;
         ++a.sample_index;
     }
+    if (mean) r.value = sum / float(count);
     return r;
 }
 

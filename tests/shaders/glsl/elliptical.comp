@@ -9,7 +9,7 @@ void main() {
     index += first_case;
     uint op = case_uint(index, 0u);
     Result r = no_result();
-    if (op == OP_SAMPLE) r = sample_case(index);
+    if (op == OP_SAMPLE) r = filter_case(index);
     if (op == OP_DRAW) r = draw_case(index);
     write_result(index, r);
 }

@@ -160,19 +160,28 @@ vec4 shade_texel(uint shader, vec4 texel) {
     return texel;
 }
 
+// Taps along x, y and z of one level; one of weight 1 along an axis that there is not.
+AxisTaps[3] level_taps(Lookup l, Kernel k, int level, vec2 moved) {
+    AxisTaps taps[3];
+    taps[2].first = 0;
+    taps[2].count = 1;
+    taps[2].weight[0] = 1.0;
+    int axes = is_volume(l) ? 3 : 2;
+    for (int axis = 0; axis < axes; ++axis) taps[axis] = lookup_taps(l, k, axis, level, axis < 2 ? moved[axis] : 0.0);
+    return taps;
+}
+
 // Every tap of one probe in one level. A tap that weighs nothing is not read: 0 times infinity is not a number.
 vec4 filter_level(Lookup l, Kernel k, int level, vec2 moved, uint shader) {
-    AxisTaps x = lookup_taps(l, k, 0, level, moved.x), y = lookup_taps(l, k, 1, level, moved.y), z;
-    z.count = 1;
-    z.first = 0;
-    z.weight[0] = 1.0;
-    if (is_volume(l)) z = lookup_taps(l, k, 2, level, 0.0);
+    AxisTaps taps[3] = level_taps(l, k, level, moved);
     vec4 sum = vec4(0.0);
-    for (int c = 0; c < z.count; ++c) {
-        for (int b = 0; b < y.count; ++b) {
-            for (int a = 0; a < x.count; ++a) {
-                float weight = x.weight[a] * y.weight[b] * z.weight[c];
-                if (weight != 0.0) sum += weight * shade_texel(shader, read_texel(l, level, ivec3(x.first + a, y.first + b, z.first + c)));
+    for (int c = 0; c < taps[2].count; ++c) {
+        for (int b = 0; b < taps[1].count; ++b) {
+            for (int a = 0; a < taps[0].count; ++a) {
+                float weight = taps[0].weight[a] * taps[1].weight[b] * taps[2].weight[c];
+                if (weight == 0.0) continue;
+                ivec3 index = ivec3(taps[0].first + a, taps[1].first + b, taps[2].first + c);
+                sum += weight * shade_texel(shader, read_texel(l, level, index));
             }
         }
     }
@@ -180,10 +189,10 @@ vec4 filter_level(Lookup l, Kernel k, int level, vec2 moved, uint shader) {
 }
 
 // The texel that nearest reads, for lookups of one texel.
-ivec4 nearest_texel(Lookup l, Kernel k, int level) {
-    ivec3 n = extent_at(l.shape, level), i = ivec3(lookup_taps(l, k, 0, level, 0.0).first, lookup_taps(l, k, 1, level, 0.0).first, 0);
-    if (is_volume(l)) i.z = lookup_taps(l, k, 2, level, 0.0).first;
-    if (l.shape.cube) return ivec4(i.xy, l.slice, level);
+ivec4 nearest_texel(Lookup l, int level) {
+    ivec3 n = extent_at(l.shape, level), i = ivec3(0);
+    for (int axis = 0; axis < 3; ++axis) i[axis] = int(floor(axis_coordinate(l, axis, level, 0.0)));
+    if (l.shape.cube) return ivec4(clamp(i.xy, 0, n.x - 1), l.slice, level);
     int x = wrap_index(l.wrap.x, i.x, n.x), y = wrap_index(l.wrap.y, i.y, n.y), z = is_volume(l) ? wrap_index(l.wrap.z, i.z, n.z) : l.slice;
     if (x < 0 || y < 0 || z < 0) return ivec4(-1, -1, 0, level);
     return ivec4(x, y, z, level);
@@ -226,41 +235,32 @@ vec4 filter_lookup(Lookup l, Decision d, uint shader) {
     if (l.ellipse > 0.0 && !l.shape.cube && !is_volume(l)) return filter_ellipse(l);
     Kernel k = l.minify;
     if (d.magnified) k = l.magnify;
+    int levels = d.levels.fraction > 0.0 ? 2 : 1;
     vec4 sum = vec4(0.0);
-    for (int i = 0; i < d.probes; ++i) {
-        vec2 probe = d.probes == 1 ? vec2(0.0, 1.0) : probe_of(l.probe_variance > 0.0, i, d.probes);
-        vec2 moved = probe.x * d.axis;
-        vec4 value = filter_level(l, k, d.levels.finer, moved, shader);
-        if (d.levels.fraction > 0.0) {
-            vec4 coarser = filter_level(l, k, d.levels.coarser, moved, shader);
-            value = (1.0 - d.levels.fraction) * value + d.levels.fraction * coarser;
-        }
-        sum += probe.y * value;
+    for (int i = 0; i < d.probes * levels; ++i) {
+        vec2 probe = d.probes == 1 ? vec2(0.0, 1.0) : probe_of(l.probe_variance > 0.0, i / levels, d.probes);
+        bool coarser = i % levels == 1;
+        float share = probe.y * (coarser ? d.levels.fraction : 1.0 - d.levels.fraction);
+        sum += share * filter_level(l, k, coarser ? d.levels.coarser : d.levels.finer, probe.x * d.axis, shader);
     }
     return sum;
 }
 
-Result sample_case(uint index) {
+// OP_SAMPLE, and OP_SHADE: order 0 is the shader of the mean, order 1 the mean of the shader.
+Result filter_case(uint index) {
     Lookup l = load_lookup(index);
     Decision d = decide(l);
     Result r = no_result();
     Kernel k = l.minify;
     if (d.magnified) k = l.magnify;
     r.texel = ivec4(0, 0, l.slice, d.levels.finer);
-    if (k.kind == KERNEL_NEAREST) r.texel = nearest_texel(l, k, d.levels.finer);
+    if (k.kind == KERNEL_NEAREST) r.texel = nearest_texel(l, d.levels.finer);
     r.lod = d.levels.lod;
     r.probes = d.probes;
-    r.value = filter_lookup(l, d, 0u);
-    return r;
-}
-
-// order 0: the shader of the mean; order 1: the mean of the shader.
-Result shade_case(uint index) {
-    Lookup l = load_lookup(index);
-    Decision d = decide(l);
-    uint order = case_uint(index, 56u), shader = case_uint(index, 57u);
-    Result r = no_result();
-    r.value = order == 1u ? filter_lookup(l, d, shader) : shade_texel(shader, filter_lookup(l, d, 0u));
+    bool shades = case_uint(index, 0u) == OP_SHADE, after = case_uint(index, 56u) == 1u;
+    uint shader = shades ? case_uint(index, 57u) : 0u;
+    r.value = filter_lookup(l, d, after ? shader : 0u);
+    if (!after) r.value = shade_texel(shader, r.value);
     return r;
 }
 

@@ -9,13 +9,6 @@ struct SignedMasses {
     vec3 positive, negative;  // of either sign along the axes; (1, 0) of an axis that there is not
 };
 
-SignedMasses signed_masses(AxisTaps x, AxisTaps y) {
-    SignedMasses m;
-    m.positive = vec3(lobe_mass(x, LOBES_POSITIVE), lobe_mass(y, LOBES_POSITIVE), 1.0);
-    m.negative = vec3(lobe_mass(x, LOBES_NEGATIVE), lobe_mass(y, LOBES_NEGATIVE), 0.0);
-    return m;
-}
-
 // The mass of negative products.
 float negative_mass(SignedMasses m) {
     vec3 p = m.positive, n = m.negative;

@@ -10,7 +10,7 @@ void main() {
     index += first_case;
     uint op = case_uint(index, 0u);
     Result r = no_result();
-    if (op == OP_SAMPLE) r = sample_case(index);
+    if (op == OP_SAMPLE) r = filter_case(index);
     if (op == OP_SRGB_DECODE) r.value.x = srgb_to_linear(float(case_int(index, 45u)) / 255.0);
     if (op == OP_SRGB_ENCODE) r.bits = encode_srgb8(case_float(index, 25u));
     write_result(index, r);
