@@ -250,6 +250,15 @@ void add_draws(Adversary& a) {
             a.builder.add(record);
         }
     }
+    a.group("the largest number",
+            "weights that round to less than 1 in sum leave room for no other tap than the last that weighs anything");
+    for (const Kernel& kernel : {Kernel::gaussian(0.3f), Kernel::gaussian(0.5f), Kernel::gaussian_point(0.4f), Kernel::Lanczos3}) {
+        a.builder.add_some(12, [&] {
+            CaseRecord record = a.drawn(a.lookup(a.square, kernel), Estimator::Reservoir);
+            record.number_x = record.number_y = kAlmostOne;
+            return record;
+        });
+    }
     a.group("Gaussians are integrated over texels",
             "offsets drawn from a normal and rounded to texels have the integral over the texel as weight, not the density");
     a.builder.add_some(24, [&] { return a.drawn(a.lookup(a.square, Kernel::gaussian(a.builder.between(0.3f, 1))), Estimator::Reservoir); });

@@ -64,13 +64,12 @@ class Detective {
   public:
     explicit Detective(const Suspect& suspect) : suspect_(suspect) {}
 
-    /// Names the fault unless one was found before.
+    /// Keeps the fault's name if it explains what came.
     void try_answer(const std::string& name, const PortResult& answer) {
         // A fault that changes nothing here explains nothing.
-        if (found_.empty() && illegal_words(suspect_.expectation, answer) != 0 && explains(suspect_, answer)) found_ = name;
+        if (illegal_words(suspect_.expectation, answer) != 0 && explains(suspect_, answer)) keep(name);
     }
     void try_change(const std::string& name, const Change& change) {
-        if (!found_.empty()) return;
         CaseRecord record = suspect_.record;
         change(record);
         if (record == suspect_.record) return;
@@ -80,11 +79,14 @@ class Detective {
         }
         try_answer(name, evaluate(suspect_.suite, record));
     }
-    const std::string& found() const { return found_; }
+    void keep(const std::string& name) {
+        if (std::ranges::find(found_, name) == found_.end()) found_.push_back(name);
+    }
+    const std::vector<std::string>& found() const { return found_; }
 
   private:
     const Suspect& suspect_;
-    std::string found_;
+    std::vector<std::string> found_;
 };
 
 void try_wrapped_indices(const Suspect& s, Detective& detective) {
@@ -328,7 +330,7 @@ bool has_nan(const PortResult& result, uint32_t judged) {
 
 }  // namespace
 
-std::string likely_cause(const Suite& suite, size_t index, std::span<const PortResult> results) {
+std::vector<std::string> possible_causes(const Suite& suite, size_t index, std::span<const PortResult> results) {
     const Suspect suspect{suite, index, suite.cases[index], suite.expected[index], results[index]};
     Detective detective(suspect);
     if (suspect.record.op == PortOp::WrapIndex) try_wrapped_indices(suspect, detective);
@@ -346,11 +348,10 @@ std::string likely_cause(const Suite& suite, size_t index, std::span<const PortR
         detective.try_change("x and y of the normal swapped", [](CaseRecord& c) { std::swap(c.at[0], c.at[1]); });
     }
     try_values(suspect, detective);
-    if (!detective.found().empty()) return detective.found();
-    if (is_zero(suspect.came)) return "nothing was written";
+    if (is_zero(suspect.came)) detective.keep("nothing was written");
     if (has_nan(suspect.came, suspect.expectation.judged))
-        return "not a number: 0/0, 0 times infinity or the logarithm of a negative number";
-    return "";
+        detective.keep("not a number: 0/0, 0 times infinity or the logarithm of a negative number");
+    return detective.found();
 }
 
 }  // namespace rawtexel::cli

@@ -5,11 +5,12 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace rawtexel::cli {
 
-/// The first known fault under which the answer to case `index` would be what came, such as "half a texel left"; empty where none explains
-/// it. `results`: all that came, for the neighbours of a case may be at fault.
-std::string likely_cause(const Suite& suite, size_t index, std::span<const PortResult> results);
+/// Every known fault under which the answer to case `index` would be what came, such as "half a texel left"; the likelier ones first, none
+/// twice. `results`: all that came, for the neighbours of a case may be at fault.
+std::vector<std::string> possible_causes(const Suite& suite, size_t index, std::span<const PortResult> results);
 
 }  // namespace rawtexel::cli

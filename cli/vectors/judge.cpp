@@ -2,8 +2,10 @@
 
 #include "cli/vectors/diagnosis.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <map>
 
 namespace rawtexel::cli {
 namespace {
@@ -42,15 +44,23 @@ uint32_t illegal_words(const Expectation& expectation, const PortResult& came) {
 SuiteVerdict judge_results(const Suite& suite, std::span<const PortResult> results) {
     assert(results.size() == suite.cases.size());
     SuiteVerdict verdict;
+    std::vector<std::vector<std::string>> causes;
+    std::map<std::string, int> explained;
     for (const CaseGroup& group : suite.groups) {
         int diagnosed = 0;
         for (size_t index = group.first; index < size_t(group.first) + group.count; ++index) {
             const uint32_t words = illegal_words(suite.expected[index], results[index]);
             if (words == 0) continue;
-            CaseFailure failure{index, results[index], words, {}};
-            if (diagnosed++ < kDiagnosedOfGroup) failure.cause = likely_cause(suite, index, results);
-            verdict.failures.push_back(std::move(failure));
+            verdict.failures.push_back({index, results[index], words, {}});
+            causes.emplace_back();
+            if (diagnosed++ < kDiagnosedOfGroup) causes.back() = possible_causes(suite, index, results);
+            for (const std::string& cause : causes.back()) ++explained[cause];
         }
+    }
+    // One fault fails many cases: of all that explain a case the one that explains most others is the likeliest.
+    for (size_t n = 0; n < causes.size(); ++n) {
+        const auto likeliest = std::ranges::max_element(causes[n], {}, [&](const std::string& cause) { return explained[cause]; });
+        if (likeliest != causes[n].end()) verdict.failures[n].cause = *likeliest;
     }
     return verdict;
 }

@@ -198,6 +198,14 @@ Suite make_anisotropy_suite() {
             return some(sampler);
         });
     }
+    builder.begin_group("beyond 16 probes", "the sampler says how many there may be, not the device that a port was written for");
+    builder.add_some(24, [&] {
+        SamplerState sampler = sampler_with(Kernel::Bilinear, MipMode::Linear);
+        sampler.probes = 64;
+        CaseRecord record = some(sampler);
+        builder.draw_footprint(record, std::exp2(builder.between(4.3f, 6)), std::exp2(builder.between(4.2f, 6)));
+        return record;
+    });
     builder.begin_group("axes of the ellipse", "singular values and the major axis instead of the derivatives");
     builder.add_some(32, [&] {
         SamplerState sampler = sampler_with(Kernel::Bilinear, MipMode::Linear);
