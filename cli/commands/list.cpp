@@ -81,14 +81,15 @@ class ListCommand : public Command {
   public:
     std::string_view name() const override { return "list"; }
     std::string_view usage() const override {
-        return "list scenes|filters|estimators|noises|baselines|formats|counters [--json] [--plot FILE.svg]";
+        return "list scenes|filters|estimators|noises|baselines|formats|counters|suites [--json] [--plot FILE.svg]";
     }
     std::string_view summary() const override {
-        return "Lists built-in scenes, texture filters, estimators, noises, baselines, texel formats or counters, one a line.";
+        return "Lists built-in scenes, texture filters, estimators, noises, baselines, texel formats, counters or suites of test vectors, "
+               "one a line.";
     }
 
     void declare(CommandLine& line) override {
-        line.arguments("SUBJECT", "scenes, filters, estimators, noises, baselines, formats or counters", 1, 1, words_);
+        line.arguments("SUBJECT", "scenes, filters, estimators, noises, baselines, formats, counters or suites", 1, 1, words_);
         line.flag("--json", "an array of objects with \"name\" and \"description\"", json_);
         line.option("--plot", "FILE.svg", "of filters: draws what every kernel weighs along an axis",
                     [&](const std::string& text) { plot_ = text; });

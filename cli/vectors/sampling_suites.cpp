@@ -281,6 +281,14 @@ Suite make_elliptical_suite() {
     builder.add_some(96, [&] { return drawn(std::exp2(builder.between(-2, 5)), std::exp2(builder.between(0, 5))); });
     builder.begin_group("drawn beyond 16:1", "the missing variance is 1 - r^2 of the axis, no less: any ratio is one draw");
     builder.add_some(48, [&] { return drawn(builder.between(20, 200), builder.chance(0.5f) ? 20.0f : 64.0f); });
+    builder.begin_group("huge", "a footprint of more than 2^18 texels draws from the finest level at which it is smaller");
+    builder.add_some(32, [&] { return drawn(std::exp2(builder.between(10, 16)), std::exp2(builder.between(0, 3))); });
+    builder.begin_group("levels of their own", "with a bias the level is drawn, and what it has filtered is taken off the ellipse");
+    builder.add_some(48, [&] {
+        CaseRecord record = drawn(std::exp2(builder.between(1, 5)), std::exp2(builder.between(0, 2)));
+        record.hybrid_bias = builder.between(0, 2);
+        return record;
+    });
     return builder.take();
 }
 

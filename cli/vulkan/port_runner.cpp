@@ -5,6 +5,7 @@
 #include "cli/vulkan/vulkan_device.h"
 #include "scenes/image_io.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <map>
@@ -20,23 +21,59 @@ struct PushedRange {
 };
 
 /// Bindings 0 to 4, as docs/porting.md has them.
-struct PortBuffers {
+class PortBuffers {
+  public:
     PortBuffers(VulkanDevice& device, const Suite& suite)
-        : tables(texture_tables(suite)),
-          words{input(device, suite.cases), input(device, std::vector<PortResult>(suite.cases.size())), input(device, tables.records),
-                input(device, tables.texels), input(device, tables.words)} {}
-
-    template <class T>
-    static std::unique_ptr<VulkanBuffer> input(VulkanDevice& device, const std::vector<T>& records) {
-        const size_t bytes = records.size() * sizeof(T), most = device.properties().limits.maxStorageBufferRange;
-        if (bytes > most)
-            throw scenes::InputError("the suite needs a buffer of " + std::to_string(bytes) + " bytes, the device has buffers of " +
-                                     std::to_string(most));
-        return std::make_unique<VulkanBuffer>(device, std::as_bytes(std::span(records)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+        : device_(device),
+          tables_(texture_tables(suite)),
+          buffers_{make(suite.cases), make(std::vector<PortResult>(suite.cases.size())), make(tables_.records), make(tables_.texels),
+                   make(tables_.words)} {
+        for (const size_t n : {0, 1, 2, 4}) check_range(buffers_[n]->size());
     }
 
-    TextureTables tables;
-    std::array<std::unique_ptr<VulkanBuffer>, kBuffers> words;
+    /// Whether a shader sees the texels of all textures at once. Where they are too many for the device it sees those of one.
+    bool shows_all_texels() const { return buffers_[kTexels]->size() <= range(); }
+
+    /// Lets a shader see the texels of `texture` alone: their places in the textures' records are counted from the first that it sees.
+    void show(uint32_t texture) {
+        const VkDeviceSize step = std::max<VkDeviceSize>(device_.properties().limits.minStorageBufferOffsetAlignment, 16);
+        const VkDeviceSize first = VkDeviceSize{tables_.records[texture].first_texel[0]} * 16;
+        offset_ = first / step * step;
+        const VkDeviceSize end = texture + 1 < tables_.records.size() ? VkDeviceSize{tables_.records[texture + 1].first_texel[0]} * 16
+                                                                      : buffers_[kTexels]->size();
+        check_range(size_t(end - offset_));
+        size_ = end - offset_;
+        std::vector<TextureRecord> records = tables_.records;
+        for (TextureRecord& record : records) {
+            for (uint32_t& place : record.first_texel) place -= uint32_t(offset_ / 16);
+        }
+        std::memcpy(buffers_[kRecords]->data(), records.data(), records.size() * sizeof(TextureRecord));
+    }
+
+    VkDescriptorBufferInfo info(uint32_t binding) const {
+        if (binding == kTexels) return {buffers_[binding]->handle(), offset_, size_};
+        return {buffers_[binding]->handle(), 0, VK_WHOLE_SIZE};
+    }
+    const std::byte* results() const { return buffers_[kResults]->data(); }
+
+  private:
+    static constexpr size_t kResults = 1, kRecords = 2, kTexels = 3;
+
+    size_t range() const { return device_.properties().limits.maxStorageBufferRange; }
+    void check_range(size_t bytes) const {
+        if (bytes > range())
+            throw scenes::InputError("the suite needs a buffer of " + std::to_string(bytes) + " bytes, the device has buffers of " +
+                                     std::to_string(range()));
+    }
+    template <class T>
+    std::unique_ptr<VulkanBuffer> make(const std::vector<T>& records) const {
+        return std::make_unique<VulkanBuffer>(device_, std::as_bytes(std::span(records)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    }
+
+    VulkanDevice& device_;
+    TextureTables tables_;
+    std::array<std::unique_ptr<VulkanBuffer>, kBuffers> buffers_;
+    VkDeviceSize offset_ = 0, size_ = VK_WHOLE_SIZE;  ///< of the texels that are seen
 };
 
 /// The shader with its layouts; what was made is destroyed with it.
@@ -117,7 +154,7 @@ class PortPipeline {
             return writes.emplace_back(one);
         };
         for (uint32_t n = 0; n < kBuffers; ++n) {
-            buffer_info[n] = {buffers.words[n]->handle(), 0, VK_WHOLE_SIZE};
+            buffer_info[n] = buffers.info(n);
             write(n, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER).pBufferInfo = &buffer_info[n];
         }
         if (images_) {
@@ -150,21 +187,38 @@ class PortPipeline {
     VkPipeline pipeline_ = VK_NULL_HANDLE;
 };
 
-/// Runs of cases that one image and one sampler serve, one dispatch each.
-void run_with_images(VulkanDevice& device, const Suite& suite, const PortBuffers& buffers, PortPipeline& pipeline, uint32_t group_size) {
+/// The texture of a case; cases without one get the first.
+uint32_t texture_of(const Suite& suite, const CaseRecord& record) { return record.texture < suite.textures.size() ? record.texture : 0; }
+
+/// One past the last case after `first` that goes with it in one dispatch.
+size_t end_of_run(const Suite& suite, size_t first, bool by_sampler) {
+    const auto together = [&](const CaseRecord& a, const CaseRecord& b) {
+        return by_sampler ? share_sampler(a, b) : texture_of(suite, a) == texture_of(suite, b);
+    };
+    size_t end = first + 1;
+    while (end < suite.cases.size() && together(suite.cases[first], suite.cases[end])) ++end;
+    return end;
+}
+
+/// A dispatch for each run of cases that one image and one sampler serve, or one texture's texels.
+void run_in_parts(VulkanDevice& device, const Suite& suite, PortBuffers& buffers, PortPipeline& pipeline, const SpirvModule& module) {
+    if (suite.textures.empty()) throw scenes::InputError("the shader samples an image (binding 5 or 6), but the suite has no textures");
     std::map<uint32_t, std::unique_ptr<SuiteImage>> images;
     for (size_t first = 0; first < suite.cases.size();) {
         const CaseRecord& record = suite.cases[first];
-        size_t end = first + 1;
-        while (end < suite.cases.size() && share_sampler(record, suite.cases[end])) ++end;
-        // Cases without a texture get the first.
-        const uint32_t texture = record.texture < suite.textures.size() ? record.texture : 0;
-        if (suite.textures.empty()) throw scenes::InputError("the shader samples an image (binding 5 or 6), but the suite has no textures");
-        std::unique_ptr<SuiteImage>& image = images[texture];
-        if (!image) image = std::make_unique<SuiteImage>(device, suite.textures[texture]);
-        const VkSampler sampler = make_sampler(device, record);
-        pipeline.dispatch(buffers, image.get(), sampler, {uint32_t(first), uint32_t(end - first)}, group_size);
-        device.vkDestroySampler(device.handle(), sampler, nullptr);
+        const size_t end = end_of_run(suite, first, module.samples_images());
+        const PushedRange range{uint32_t(first), uint32_t(end - first)};
+        const uint32_t texture = texture_of(suite, record);
+        if (!buffers.shows_all_texels()) buffers.show(texture);
+        if (module.samples_images()) {
+            std::unique_ptr<SuiteImage>& image = images[texture];
+            if (!image) image = std::make_unique<SuiteImage>(device, suite.textures[texture]);
+            const VkSampler sampler = make_sampler(device, record);
+            pipeline.dispatch(buffers, image.get(), sampler, range, module.group_size);
+            device.vkDestroySampler(device.handle(), sampler, nullptr);
+        } else {
+            pipeline.dispatch(buffers, nullptr, VK_NULL_HANDLE, range, module.group_size);
+        }
         first = end;
     }
 }
@@ -173,15 +227,15 @@ void run_with_images(VulkanDevice& device, const Suite& suite, const PortBuffers
 
 PortRun run_port(const Suite& suite, const SpirvModule& module, const std::string& path, const std::string& name) {
     VulkanDevice device(name);
-    const PortBuffers buffers(device, suite);
+    PortBuffers buffers(device, suite);
     PortPipeline pipeline(device, module, path);
-    if (module.samples_images()) {
-        run_with_images(device, suite, buffers, pipeline, module.group_size);
+    if (module.samples_images() || !buffers.shows_all_texels()) {
+        run_in_parts(device, suite, buffers, pipeline, module);
     } else {
         pipeline.dispatch(buffers, nullptr, VK_NULL_HANDLE, {0, uint32_t(suite.cases.size())}, module.group_size);
     }
     PortRun run{device.description(), std::vector<PortResult>(suite.cases.size())};
-    std::memcpy(run.results.data(), buffers.words[1]->data(), suite.cases.size() * sizeof(PortResult));
+    std::memcpy(run.results.data(), buffers.results(), suite.cases.size() * sizeof(PortResult));
     return run;
 }
 

@@ -63,6 +63,20 @@ TEST(PortRun, JudgesAFolderOfVectors) {
     EXPECT_EQ(judged.code, 0) << judged.out << judged.err;
 }
 
+// A user's own lookups, of a scene whose textures are together too large for the device's buffers where it is lavapipe.
+TEST(PortRun, JudgesLookupsOfAScene) {
+    RAWTEXEL_NEED_PORTS();
+    const TemporaryFolder folder;
+    for (const std::vector<std::string>& options :
+         {std::vector<std::string>{"--aniso", "8"}, {"--filter", "catmull-rom", "--estimator", "reservoir"}}) {
+        std::vector<std::string> words{"vectors", "--from", "courtyard", "--size", "160x90", "--cases", "256", "-o", folder / "scene"};
+        words.insert(words.end(), options.begin(), options.end());
+        ASSERT_EQ(run(words).code, 0);
+        const Outcome judged = run({"verify-shader", "--suite", folder / "scene", "--glsl", port_of("adversarial")});
+        EXPECT_EQ(judged.code, 0) << judged.out << judged.err;
+    }
+}
+
 TEST(PortRun, RefusesWhatIsNoShaderOfTheContract) {
     RAWTEXEL_NEED_PORTS();
     const TemporaryFolder folder;

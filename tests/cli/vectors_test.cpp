@@ -284,5 +284,65 @@ TEST(VectorUsage, IsRefusedWithTheNearestSpelling) {
               "");
 }
 
+TEST(SceneVectors, AreTheLookupsOfAFrame) {
+    const TemporaryFolder folder;
+    const auto write = [&](const char* to, std::vector<std::string> options) {
+        options.insert(options.begin(), {"vectors", "--from", "metal-edge", "--size", "64x36", "--cases", "200", "-o", folder / to});
+        const Outcome outcome = run(options);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+    };
+    write("all", {});
+    write("again", {});
+    write("drawn", {"--estimator", "reservoir", "--filter", "lanczos3", "--mip", "linear"});
+    for (const char* file : {"suite.json", "cases.bin", "expected.bin", "texels.bin"})
+        EXPECT_EQ(folder.read(std::string("all/") + file), folder.read(std::string("again/") + file)) << file;
+    const Suite all = cli::read_suite(folder / "all"), drawn = cli::read_suite(folder / "drawn");
+    EXPECT_GT(all.cases.size() + all.left_out, 150u);
+    EXPECT_LE(all.cases.size() + all.left_out, 200u);
+    for (const CaseRecord& record : all.cases) EXPECT_EQ(record.op, PortOp::Sample);
+    for (const CaseRecord& record : drawn.cases) {
+        EXPECT_EQ(record.op, PortOp::Draw);
+        EXPECT_EQ(texunit::KernelKind(record.minify), texunit::KernelKind::Lanczos3);
+    }
+    // What was expected is what the texture unit answers to the case that was written.
+    for (size_t n = 0; n < drawn.cases.size(); ++n) EXPECT_EQ(illegal_words(drawn.expected[n], evaluate(drawn, drawn.cases[n])), 0u) << n;
+    EXPECT_TRUE(judge_results(all, right_answers(all)).holds());
+}
+
+// Of the same pixel and map a case has the coordinates and the result that `explain` tells.
+TEST(SceneVectors, AgreeWithExplain) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(run({"vectors", "--from", "plane", "--size", "48x27", "--cases", "2000", "-o", folder / "suite"}).code, 0);
+    const Suite suite = cli::read_suite(folder / "suite");
+    const Outcome explained = run({"explain", "plane", "--size", "48x27", "--pixel", "20,20", "--json"});
+    ASSERT_EQ(explained.code, 0) << explained.err;
+    const nlohmann::json pixel = nlohmann::json::parse(explained.out);
+    const nlohmann::json map = pixel["samples"][0]["surface"]["maps"][0];
+    const auto u = map["uv"][0].get<float>(), v = map["uv"][1].get<float>();
+    size_t found = 0;
+    for (size_t n = 0; n < suite.cases.size(); ++n) {
+        if (suite.cases[n].at[0] != u || suite.cases[n].at[1] != v) continue;
+        ++found;
+        for (size_t c = 0; c < 4; ++c) EXPECT_EQ(suite.expected[n].expected.value[c], map["result"][c].get<float>()) << c;
+    }
+    EXPECT_EQ(found, 1u);
+}
+
+TEST(SceneVectors, RefuseWhatTheyDoNotHave) {
+    const TemporaryFolder folder;
+    const auto refused = [&](std::vector<std::string> options, int code, const char* part) {
+        options.insert(options.begin(), {"vectors", "-o", folder / "out"});
+        return why_not_failed(run(options), code, part);
+    };
+    EXPECT_EQ(refused({"--from", "plane", "--suite", "lod"}, 2, "not both"), "");
+    EXPECT_EQ(refused({"--suite", "lod", "--aniso", "4"}, 2, "go with --from"), "");
+    EXPECT_EQ(refused({"--suite", "lod", "--cases", "4"}, 2, "go with --from"), "");
+    EXPECT_EQ(refused({"--from", "plane", "--precision", "gpu"}, 2, "--precision gpu"), "");
+    EXPECT_EQ(refused({"--from", "plane", "--footprint", "sample"}, 2, "--footprint sample"), "");
+    EXPECT_EQ(refused({"--from", "plane", "--cases", "0"}, 2, "--cases"), "");
+    EXPECT_EQ(refused({"--from", "no-such-scene.glb"}, 3, "no-such-scene.glb"), "");
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
 }  // namespace
 }  // namespace rawtexel::test

@@ -60,8 +60,9 @@ Result draw_ellipse(Lookup l, DrawNumbers n) {
         bool coarser = finer + 1.0 <= roomy && n.level < level - finer;
         drawn.min_lod = max(l.min_lod, coarser ? finer + 1.0 : finer);
     }
-    int level = ellipse_level(drawn);
-    Ellipse e = lookup_ellipse(drawn, level);
+    PlacedEllipse placed = place_ellipse(drawn);
+    Ellipse e = placed.ellipse;
+    int level = placed.level;
     vec2 at = vec2(axis_coordinate(l, 0, level, 0.0), axis_coordinate(l, 1, level, 0.0)), corner = floor(at);
     vec2 to = floor(at - corner + draw_ellipse_offset(e, n.tap.xy)) + corner;
     Result r = no_result();

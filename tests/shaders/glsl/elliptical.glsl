@@ -32,6 +32,20 @@ Ellipse ellipse_of(Footprint f, Axes singular, float s2, int level, vec2 level_e
 // Beyond all levels: a point of the last one.
 Ellipse point_ellipse() { return Ellipse(1.0 / 12.0, 0.0, 1.0 / 12.0, 0.0, 0.288675135); }
 
+// Footprints that touch more texels than this read a coarser level.
+const float MOST_ELLIPSE_TEXELS = 262144.0;
+
+// Texels that the cut ellipse touches: its area and half the boxes along its outline.
+float texels_touched(Ellipse e) {
+    return 3.14159265 * ELLIPSE_REACH * ELLIPSE_REACH * e.sigma * sqrt(e.c) + 2.0 * ELLIPSE_REACH * (sqrt(e.a) + sqrt(e.c));
+}
+
+// As large as the bound allows, where there is no coarser level.
+Ellipse shrink(Ellipse e) {
+    while (texels_touched(e) > MOST_ELLIPSE_TEXELS) e = Ellipse(e.a / 4.0, e.b / 4.0, e.c / 4.0, e.slope, e.sigma / 2.0);
+    return e;
+}
+
 // erf to 2^-22: normal_mass without its cut.
 float ellipse_mass(float t) { return normal_mass(t) * 1.999873315; }
 

@@ -199,21 +199,34 @@ ivec4 nearest_texel(Lookup l, int level) {
 }
 
 // The ellipse of a lookup and its level.
-Ellipse lookup_ellipse(Lookup l, int level) {
-    Footprint f = footprint_of(l.dx, l.dy, vec2(l.shape.extent.xy));
-    if (!f.finite) return point_ellipse();
-    vec2 k = vec2(extent_at(l.shape, level).xy) / vec2(l.shape.extent.xy);
-    return ellipse_of(f, singular_axes(f), l.ellipse, level, k);
-}
+struct PlacedEllipse {
+    Ellipse ellipse;
+    int level;
+};
 
-int ellipse_level(Lookup l) {
+PlacedEllipse place_ellipse(Lookup l) {
+    int last = l.shape.levels - 1;
     Footprint f = footprint_of(l.dx, l.dy, vec2(l.shape.extent.xy));
-    return f.finite ? int(clamp(l.min_lod, 0.0, float(l.shape.levels - 1))) : l.shape.levels - 1;
+    if (!f.finite) return PlacedEllipse(point_ellipse(), last);
+    Axes axes = singular_axes(f);
+    PlacedEllipse p;
+    p.level = int(clamp(l.min_lod, 0.0, float(last))) - 1;
+    do {
+        ++p.level;
+        vec2 k = vec2(extent_at(l.shape, p.level).xy) / vec2(l.shape.extent.xy);
+        p.ellipse = ellipse_of(f, axes, l.ellipse, p.level, k);
+    } while (p.level < last && texels_touched(p.ellipse) > MOST_ELLIPSE_TEXELS);
+    ivec3 n = extent_at(l.shape, p.level);
+    bool one_texel = n.x == 1 && n.y == 1 && l.wrap.x != WRAP_BORDER && l.wrap.y != WRAP_BORDER;
+    if (one_texel) p.ellipse = point_ellipse();
+    else p.ellipse = shrink(p.ellipse);
+    return p;
 }
 
 vec4 filter_ellipse(Lookup l) {
-    int level = ellipse_level(l);
-    Ellipse e = lookup_ellipse(l, level);
+    PlacedEllipse placed = place_ellipse(l);
+    Ellipse e = placed.ellipse;
+    int level = placed.level;
     vec2 at = vec2(axis_coordinate(l, 0, level, 0.0), axis_coordinate(l, 1, level, 0.0)), corner = floor(at), centre = at - corner;
     float high = ELLIPSE_REACH * sqrt(e.c), sum = 0.0;
     vec4 value = vec4(0.0);
