@@ -1,6 +1,7 @@
 #include "cli/commands/verify_shader.h"
 
 #include "cli/option_values.h"
+#include "cli/vectors/hardware_report.h"
 #include "cli/vectors/suite_files.h"
 #include "cli/vectors/verdict_report.h"
 #include "cli/vulkan/glsl_compiler.h"
@@ -10,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 
@@ -107,19 +109,30 @@ class VerifyShaderCommand : public Command {
     bool verify(const Suite& suite, const Port& port, const Invocation& invocation) const {
         PortRun run;
         if (port.source == Source::Outputs) {
-            run = {port.path, read_outputs(port.path, suite)};
+            run = {port.path, read_outputs(port.path, suite), {}};
         } else {
             const std::vector<std::byte> spirv = port.source == Source::Glsl ? compile_glsl(port.path) : scenes::read_file(port.path);
             run = run_port(suite, parse_spirv(port.path, spirv), port.path, device_);
         }
         if (!output_.empty()) scenes::write_file(output_, std::as_bytes(std::span(run.results)));
-        const SuiteVerdict verdict = judge_results(suite, run.results);
+        const bool hardware = suite.name == kHardwareSuite;
+        if (!hardware && !run.unsupported.empty())
+            throw scenes::InputError(port.path + ": it samples images (binding 5 or 6), and the device has none such as texture '" +
+                                     suite.textures[run.unsupported[0]].name() + "'");
+        SuiteVerdict verdict = judge_results(suite, run.results);
+        std::erase_if(verdict.failures, [&](const CaseFailure& failure) {
+            return std::ranges::find(run.unsupported, suite.cases[failure.index].texture) != run.unsupported.end();
+        });
+        std::vector<HardwareAgreement> agreements;
+        if (hardware) agreements = measure_hardware(suite, run.results, run.unsupported);
         if (json_) {
-            invocation.out << verdict_json(suite, verdict, run.device).dump() << '\n';
+            nlohmann::ordered_json json = verdict_json(suite, verdict, run.device);
+            if (hardware) json["agreement"] = hardware_json(agreements);
+            invocation.out << json.dump() << '\n';
         } else {
-            invocation.out << verdict_text(suite, verdict, run.device);
+            invocation.out << verdict_text(suite, verdict, run.device) << hardware_text(agreements);
         }
-        return verdict.holds();
+        return verdict.holds() && std::ranges::all_of(agreements, &HardwareAgreement::holds);
     }
 
     std::string suite_, device_, output_;

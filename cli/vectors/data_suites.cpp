@@ -61,7 +61,8 @@ void set_corner_cases(SuiteBuilder& builder, Format format, std::vector<std::byt
     }
 }
 
-/// A texture of whole blocks with all its levels.
+}  // namespace
+
 uint32_t add_block_texture(SuiteBuilder& builder, Format format) {
     Shape shape{.width = 4 * kBlockColumns, .height = 4 * kBlockRows};
     shape.levels = texunit::full_level_count(shape.width, shape.height);
@@ -73,8 +74,6 @@ uint32_t add_block_texture(SuiteBuilder& builder, Format format) {
     set_corner_cases(builder, format, blocks);
     return builder.add_texture({std::string(texunit::info(format).name), format, shape, std::move(blocks)});
 }
-
-}  // namespace
 
 Suite make_bc_decode_suite() {
     SuiteBuilder builder("bc-decode", "texels of compressed blocks, random ones and those at the ends of their codes");

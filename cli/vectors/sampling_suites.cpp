@@ -68,7 +68,7 @@ void add_lookups(SuiteBuilder& builder, uint32_t odd, uint32_t square, uint32_t 
             record.at = {float(k) / 8, float(k + 3) / 8, 0};
             builder.add(record);
         }
-        for (const float u : {0.0f, -0.0f, 1.0f, -1.0f, 2.0f, -1e-9f, 1e-9f, std::nextafter(0.0f, -1.0f), std::nextafter(1.0f, 0.0f),
+        for (const float u : {0.0f, -0.0f, 1.0f, -1.0f, 2.0f, -1e-9f, 1e-9f, -0x1p-120f, std::nextafter(1.0f, 0.0f),
                               std::nextafter(1.0f, 2.0f), std::nextafter(-1.0f, 0.0f), std::nextafter(-1.0f, -2.0f)}) {
             CaseRecord record = sample_case(square, nearest);
             record.at = {u, 0.25f, 0};
@@ -168,7 +168,7 @@ Suite make_lod_suite() {
         return record;
     });
     builder.begin_group("degenerate", "no derivative: level 0; tiny and huge ones; not finite: the last level");
-    for (const float size : {0.0f, 1e-38f, 1e-30f, 1e-10f, 1e10f, 1e18f, kInfinity, kNan}) {
+    for (const float size : {0.0f, 0x1p-120f, 1e-30f, 1e-10f, 1e10f, 1e18f, kInfinity, kNan}) {
         for (const bool along_x : {false, true}) {
             CaseRecord record = sample_case(odd, sampler_with(Kernel::Bilinear, MipMode::Linear));
             record.at = {0.3f, 0.6f, 0};

@@ -49,6 +49,9 @@ class SuiteBuilder {
     uint32_t seed_, counter_ = 0;
 };
 
+/// A texture of a compressed format with all its levels: random blocks, and such as random ones hardly hit. Returns its number.
+uint32_t add_block_texture(SuiteBuilder& builder, texunit::Format format);
+
 /// Makers of the suites, by topic.
 Suite make_addressing_suite();
 Suite make_lod_suite();
@@ -63,5 +66,6 @@ Suite make_srgb_suite();
 Suite make_random_numbers_suite();
 Suite make_noise_suite();
 Suite make_adversarial_suite();
+Suite make_hardware_suite();
 
 }  // namespace rawtexel::cli

@@ -23,7 +23,8 @@ constexpr std::array kSuites = {
     KnownSuite{{"srgb", "sRGB codes and back"}, make_srgb_suite},
     KnownSuite{{"random-numbers", "hashes of addresses"}, make_random_numbers_suite},
     KnownSuite{{"noise", "white, sobol, r2, blue and stbn"}, make_noise_suite},
-    KnownSuite{{"adversarial", "every known pitfall of stochastic filtering, by name"}, make_adversarial_suite}};
+    KnownSuite{{"adversarial", "every known pitfall of stochastic filtering, by name"}, make_adversarial_suite},
+    KnownSuite{{"hardware", "the device's own texture unit: how many bits, how far from the ellipse, how it rounds"}, make_hardware_suite}};
 
 constexpr auto kInfos = [] {
     std::array<SuiteInfo, kSuites.size()> infos;

@@ -201,7 +201,8 @@ size_t end_of_run(const Suite& suite, size_t first, bool by_sampler) {
 }
 
 /// A dispatch for each run of cases that one image and one sampler serve, or one texture's texels.
-void run_in_parts(VulkanDevice& device, const Suite& suite, PortBuffers& buffers, PortPipeline& pipeline, const SpirvModule& module) {
+void run_in_parts(VulkanDevice& device, const Suite& suite, PortBuffers& buffers, PortPipeline& pipeline, const SpirvModule& module,
+                  std::vector<uint32_t>& unsupported) {
     if (suite.textures.empty()) throw scenes::InputError("the shader samples an image (binding 5 or 6), but the suite has no textures");
     std::map<uint32_t, std::unique_ptr<SuiteImage>> images;
     for (size_t first = 0; first < suite.cases.size();) {
@@ -210,7 +211,9 @@ void run_in_parts(VulkanDevice& device, const Suite& suite, PortBuffers& buffers
         const PushedRange range{uint32_t(first), uint32_t(end - first)};
         const uint32_t texture = texture_of(suite, record);
         if (!buffers.shows_all_texels()) buffers.show(texture);
-        if (module.samples_images()) {
+        if (module.samples_images() && !can_sample(device, suite.textures[texture])) {
+            if (std::ranges::find(unsupported, texture) == unsupported.end()) unsupported.push_back(texture);
+        } else if (module.samples_images()) {
             std::unique_ptr<SuiteImage>& image = images[texture];
             if (!image) image = std::make_unique<SuiteImage>(device, suite.textures[texture]);
             const VkSampler sampler = make_sampler(device, record);
@@ -229,12 +232,12 @@ PortRun run_port(const Suite& suite, const SpirvModule& module, const std::strin
     VulkanDevice device(name);
     PortBuffers buffers(device, suite);
     PortPipeline pipeline(device, module, path);
+    PortRun run{device.description(), std::vector<PortResult>(suite.cases.size()), {}};
     if (module.samples_images() || !buffers.shows_all_texels()) {
-        run_in_parts(device, suite, buffers, pipeline, module);
+        run_in_parts(device, suite, buffers, pipeline, module, run.unsupported);
     } else {
         pipeline.dispatch(buffers, nullptr, VK_NULL_HANDLE, {0, uint32_t(suite.cases.size())}, module.group_size);
     }
-    PortRun run{device.description(), std::vector<PortResult>(suite.cases.size())};
     std::memcpy(run.results.data(), buffers.results(), suite.cases.size() * sizeof(PortResult));
     return run;
 }
