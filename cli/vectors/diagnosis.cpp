@@ -89,27 +89,54 @@ class Detective {
     std::vector<std::string> found_;
 };
 
-void try_wrapped_indices(const Suspect& s, Detective& detective) {
-    const int i = s.record.index, n = s.record.extent;
-    const auto answer = [&](const char* name, int x) {
-        PortResult result;
-        result.x = x;
-        detective.try_answer(name, result);
-    };
-    answer("the remainder of a negative index is negative", i % n);
-    answer("wrap off by one for negative indices", i < 0 ? (-i) % n : i % n);
-    answer("wrap off by one for negative indices", i < 0 ? n - 1 - (-i) % n : i % n);
-    answer("wrap off by one for negative indices", (i % n + n - (i < 0 ? 1 : 0)) % n);
-    answer("wrap off by one for negative indices", i < 0 ? std::min(-i, n - 1) : std::min(i, n - 1));
+/// What faulty code makes of index i in an axis of n texels.
+struct WrappedIndex {
+    const char* fault;
+    int texel;
+};
+std::vector<WrappedIndex> faulty_wraps(int i, int n) {
     const int period = 2 * n, place = (i % period + period) % period;
-    answer("mirror off by one: the edge texel is not repeated", place < n ? place : std::min(period - place, n - 1));
-    answer("mirror without its second half turned round", place % n);
-    answer("texel 0 out of reach", std::clamp(i, std::min(1, n - 1), n - 1));
-    answer("the last texel out of reach", std::clamp(i, 0, std::max(n - 2, 0)));
-    answer("one texel beyond the end", std::clamp(i, 0, n));
-    answer("the border clamped to the edge", std::clamp(i, 0, n - 1));
+    return {{"the remainder of a negative index is negative", i % n},
+            {"wrap off by one for negative indices", i < 0 ? (-i) % n : i % n},
+            {"wrap off by one for negative indices", i < 0 ? n - 1 - (-i) % n : i % n},
+            {"wrap off by one for negative indices", (i % n + n - (i < 0 ? 1 : 0)) % n},
+            {"wrap off by one for negative indices", i < 0 ? std::min(-i, n - 1) : std::min(i, n - 1)},
+            {"mirror off by one: the edge texel is not repeated", place < n ? place : period - place},
+            {"mirror off by one: the edge texel is not repeated", place < n ? place : std::min(period - place, n - 1)},
+            {"mirror without its second half turned round", place % n},
+            {"texel 0 out of reach", std::clamp(i, std::min(1, n - 1), n - 1)},
+            {"the last texel out of reach", std::clamp(i, 0, std::max(n - 2, 0))},
+            {"one texel beyond the end", std::clamp(i, 0, n)},
+            {"the border clamped to the edge", std::clamp(i, 0, n - 1)}};
+}
+
+void try_wrapped_indices(const Suspect& s, Detective& detective) {
+    for (const WrappedIndex& wrapped : faulty_wraps(s.record.index, s.record.extent)) {
+        PortResult result;
+        result.x = wrapped.texel;
+        detective.try_answer(wrapped.fault, result);
+    }
     for (uint32_t wrap = 0; wrap < 5; ++wrap)
         detective.try_change("wrapped as " + std::string(to_string(Wrap(wrap))), [=](CaseRecord& c) { c.wrap_s = wrap; });
+}
+
+/// Of lookups of one texel: whether their indices were wrapped by faulty code. The texel may lie outside of the texture then, so that only
+/// its place tells.
+void try_wrapped_texels(const Suspect& s, Detective& detective) {
+    const Shape& shape = s.shape();
+    const PortResult& right = s.expectation.expected;
+    const bool nearest = s.record.magnify == 0 && s.record.minify == 0;
+    if ((s.expectation.judged & kJudgesTexel) == 0 || !nearest || shape.cube || shape.depth > 1 || right.x < 0) return;
+    if (s.came.x == right.x && s.came.y == right.y) return;
+    const auto wraps = [&](size_t axis) {
+        const int extent = texunit::level_extent(axis == 0 ? shape.width : shape.height, right.level);
+        const float u = std::isfinite(s.record.at[axis]) ? std::clamp(s.record.at[axis], -80.0f, 80.0f) : 0.0f;
+        return faulty_wraps(int(std::floor(u * float(extent))), extent);
+    };
+    const std::vector<WrappedIndex> x = wraps(0), y = wraps(1);
+    for (size_t n = 0; n < x.size(); ++n) {
+        if ((s.came.x == x[n].texel || s.came.x == right.x) && (s.came.y == y[n].texel || s.came.y == right.y)) detective.keep(x[n].fault);
+    }
 }
 
 void try_addresses(const Suspect& s, Detective& detective) {
@@ -143,6 +170,14 @@ void try_addresses(const Suspect& s, Detective& detective) {
             detective.try_change(name, [=](CaseRecord& c) { c.wrap_t = wrap; });
             detective.try_change(name, [=](CaseRecord& c) { c.wrap_r = wrap; });
         }
+        detective.try_change("coordinates scaled before their whole repeats are taken away: the fraction is lost", [=](CaseRecord& c) {
+            for (size_t axis = 0; axis < 2; ++axis) {
+                const float scaled = c.at[axis] * float(extent[axis]);
+                const double period = 2.0 * extent[axis];
+                if (std::isfinite(scaled))
+                    c.at[axis] = float((double(scaled) - period * std::floor(double(scaled) / period)) / extent[axis]);
+            }
+        });
         detective.try_change("the border colour left out", [](CaseRecord& c) { c.border = {}; });
         detective.try_change("the border has alpha 1 and no colour", [](CaseRecord& c) { c.border = {0, 0, 0, 1}; });
         detective.try_change("wraps of the two axes swapped", [](CaseRecord& c) { std::swap(c.wrap_s, c.wrap_t); });
@@ -340,6 +375,7 @@ std::vector<std::string> possible_causes(const Suite& suite, size_t index, std::
         try_footprints(suspect, detective);
         try_numbers(suspect, detective);
         try_neighbours(suspect, detective);
+        try_wrapped_texels(suspect, detective);
         try_kernels(suspect, detective);
     }
     if (suspect.record.op == PortOp::Random || suspect.record.op == PortOp::NoisePair) try_random(suspect, detective);

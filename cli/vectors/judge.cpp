@@ -10,8 +10,6 @@
 namespace rawtexel::cli {
 namespace {
 
-constexpr int kDiagnosedOfGroup = 32;
-
 template <class T>
 T word_of(const PortResult& result, size_t word) {
     T value;

@@ -25,7 +25,9 @@ struct SuiteVerdict {
 /// Bits of the judged words that lie outside their interval; what is not a number never lies inside.
 uint32_t illegal_words(const Expectation& expectation, const PortResult& came);
 
-/// One result a case. Causes are looked for in the first failures of every group.
+inline constexpr int kDiagnosedOfGroup = 32;  ///< first failures of a group in which causes are looked for
+
+/// One result a case.
 SuiteVerdict judge_results(const Suite& suite, std::span<const PortResult> results);
 
 }  // namespace rawtexel::cli

@@ -83,7 +83,9 @@ std::string group_text(const Suite& suite, const CaseGroup& group, std::span<con
         if (!failure.cause.empty()) ++causes[failure.cause];
     }
     const auto most = std::ranges::max_element(causes, {}, [](const auto& each) { return each.second; });
-    if (most != causes.end()) text += "    likeliest cause: " + most->first + " (explains " + std::to_string(most->second) + ")\n";
+    if (most != causes.end())
+        text += "    likeliest cause: " + most->first + " (explains " + std::to_string(most->second) + " of " +
+                std::to_string(std::min<size_t>(failures.size(), kDiagnosedOfGroup)) + " looked into)\n";
     for (size_t n = 0; n < std::min(failures.size(), kShownOfGroup); ++n) text += failure_text(suite, failures[n]);
     if (failures.size() > kShownOfGroup) text += "    and " + std::to_string(failures.size() - kShownOfGroup) + " more\n";
     return text;

@@ -78,6 +78,17 @@ TEST(PortRun, JudgesLookupsOfAScene) {
     }
 }
 
+// The walk through docs/porting.md: a first try with two faults, whose causes are named.
+TEST(PortRun, FindsTheFaultsOfTheExample) {
+    RAWTEXEL_NEED_PORTS();
+    const Outcome tried =
+        run({"verify-shader", "--suite", "addressing", "--glsl", std::string(RAWTEXEL_SHADERS) + "/example/first_try.comp"});
+    EXPECT_EQ(tried.code, 1) << tried.err;
+    for (const char* part : {"index mirror: ", "likeliest cause: mirror off by one: the edge texel is not repeated",
+                             "likeliest cause: coordinates scaled before their whole repeats are taken away"})
+        EXPECT_NE(tried.out.find(part), std::string::npos) << part << "\n" << tried.out;
+}
+
 TEST(PortRun, RefusesWhatIsNoShaderOfTheContract) {
     RAWTEXEL_NEED_PORTS();
     const TemporaryFolder folder;
