@@ -17,7 +17,7 @@ void main() {
         uint format = texture_format(number), columns = (uint(t.extent.x) + 3u) / 4u;
         uint at = texture_first_word(number) + block_words(format) * (texel.x / 4u + columns * (texel.y / 4u));
         uvec4 block = uvec4(stored_words[at], stored_words[at + 1u], 0u, 0u);
-        if (block_words(format) == 4u) block.zw = uvec2(stored_words[at + 2u], stored_words[at + 3u]);
+        if (block_words(format) == 4u) block = uvec4(block.xy, stored_words[at + 2u], stored_words[at + 3u]);
         r.value = decode_texel(format, block, texel.x % 4u + 4u * (texel.y % 4u));
     }
     write_result(index, r);

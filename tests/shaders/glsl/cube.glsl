@@ -63,7 +63,7 @@ void fold_onto_faces(inout int face, inout ivec2 texel, int n) {
 // Beyond a corner there is no texel; `third` picks one of the three that meet there (0, 1, 2).
 void resolve_cube_texel(inout int face, inout ivec2 texel, int n, int third) {
     if (beyond(texel.x, n) && beyond(texel.y, n)) {
-        ivec2 inside = clamp(texel, 0, n - 1), just_out = clamp(texel, -1, n);
+        ivec2 inside = clamp(texel, ivec2(0), ivec2(n - 1)), just_out = clamp(texel, ivec2(-1), ivec2(n));
         texel = third == 0 ? inside : third == 1 ? ivec2(just_out.x, inside.y) : ivec2(inside.x, just_out.y);
     }
     fold_onto_faces(face, texel, n);

@@ -26,8 +26,8 @@ Kernel case_kernel(uint index, uint word) {
 
 bool is_volume(Lookup l) { return l.shape.extent.z > 1; }
 
-// Of three derivatives a flat footprint with the same lengths.
-void flatten(Lookup l, vec3 dx, vec3 dy, out vec2 flat_dx, out vec2 flat_dy) {
+// Of three derivatives a flat footprint with the same lengths: its dx and dy.
+vec4 flatten(Lookup l, vec3 dx, vec3 dy) {
     vec3 n = vec3(l.shape.extent), x = dx * n, y = dy * n;
     float xx = dot(x, x), yy = dot(y, y), xy = dot(x, y), rho_x = sqrt(xx), rho_y = sqrt(yy);
     if (l.lod_rule == 1u) {
@@ -35,8 +35,7 @@ void flatten(Lookup l, vec3 dx, vec3 dy, out vec2 flat_dx, out vec2 flat_dy) {
         rho_x = sqrt(0.5 * (xx + yy) + sqrt(difference * difference + xy * xy));
         rho_y = 0.0;
     }
-    flat_dx = vec2(rho_x / n.x, 0.0);
-    flat_dy = vec2(0.0, rho_y / n.y);
+    return vec4(rho_x / n.x, 0.0, 0.0, rho_y / n.y);
 }
 
 Lookup load_lookup(uint index) {
@@ -65,7 +64,9 @@ Lookup load_lookup(uint index) {
     int members = l.shape.layers / (l.shape.cube ? 6 : 1);
     l.slice = int(roundEven(clamp(is_finite(layer) ? layer : 0.0, 0.0, float(members - 1))));
     if (is_volume(l)) {
-        flatten(l, dx, dy, l.dx, l.dy);
+        vec4 flat_footprint = flatten(l, dx, dy);
+        l.dx = flat_footprint.xy;
+        l.dy = flat_footprint.zw;
         l.slice = 0;
     } else if (l.shape.cube) {
         FacePlace place = project_direction(l.at, dx, dy);
@@ -95,7 +96,8 @@ Decision decide(Lookup l) {
     bool solid = is_volume(l) || l.shape.cube;
     if (solid || (l.most_probes == 1 && l.probe_variance <= 0.0)) {
         float longer2 = l.lod_rule == 1u ? singular_axes(f).major2 : derivative_axes(f).major2;
-        lambda = magnified = bound_lod(log2_length(f, longer2), l.lod_bias, l.min_lod, l.max_lod);
+        lambda = bound_lod(log2_length(f, longer2), l.lod_bias, l.min_lod, l.max_lod);
+        magnified = lambda;
     } else {
         bool normal = l.probe_variance > 0.0;
         Axes axes;
@@ -192,7 +194,7 @@ vec4 filter_level(Lookup l, Kernel k, int level, vec2 moved, uint shader) {
 ivec4 nearest_texel(Lookup l, int level) {
     ivec3 n = extent_at(l.shape, level), i = ivec3(0);
     for (int axis = 0; axis < 3; ++axis) i[axis] = int(floor(axis_coordinate(l, axis, level, 0.0)));
-    if (l.shape.cube) return ivec4(clamp(i.xy, 0, n.x - 1), l.slice, level);
+    if (l.shape.cube) return ivec4(clamp(i.xy, ivec2(0), n.xy - 1), l.slice, level);
     int x = wrap_index(l.wrap.x, i.x, n.x), y = wrap_index(l.wrap.y, i.y, n.y), z = is_volume(l) ? wrap_index(l.wrap.z, i.z, n.z) : l.slice;
     if (x < 0 || y < 0 || z < 0) return ivec4(-1, -1, 0, level);
     return ivec4(x, y, z, level);

@@ -14,7 +14,7 @@ void main() {
         RandomAddress a = RandomAddress(uvec2(case_uint(index, 47u), case_uint(index, 48u)), case_uint(index, 49u), case_uint(index, 50u),
                                         case_uint(index, 51u), case_uint(index, 52u));
         uvec2 bits = noise_pair(case_uint(index, 53u), a, case_uint(index, 54u));
-        r.value.xy = vec2(unit_float(bits.x), unit_float(bits.y));
+        r.value = vec4(unit_float(bits.x), unit_float(bits.y), 0.0, 0.0);
     }
     write_result(index, r);
 }

@@ -4,8 +4,10 @@
 
 float whole_power(float base, uint exponent) {
     float power = 1.0;
-    for (; exponent > 0u; exponent >>= 1, base *= base) {
+    while (exponent > 0u) {
         if ((exponent & 1u) != 0u) power *= base;
+        exponent >>= 1;
+        base *= base;
     }
     return power;
 }
