@@ -48,15 +48,17 @@ CommandLine& declare(CommandLine& line, Command& command) {
     return line;
 }
 
+constexpr size_t kCommandColumn = 18;  ///< where the help's texts begin
+
 std::string program_help(const Commands& commands) {
     std::string text = "Usage: rawtexel COMMAND ...\n\nA software rasterizer whose subject is the texture unit.\n\nCommands:\n";
     for (const auto& command : commands) {
         std::string left = "  " + std::string(command->name());
-        left.resize(12, ' ');
-        text += left + wrap_text(command->summary(), 98, 12) + "\n";
+        left.resize(kCommandColumn, ' ');
+        text += left + wrap_text(command->summary(), 110 - kCommandColumn, kCommandColumn) + "\n";
     }
     return text +
-           "  help      This text, or that of a command: `rawtexel help COMMAND`, the same as `rawtexel COMMAND --help`.\n"
+           "  help            This text, or that of a command: `rawtexel help COMMAND`, or `rawtexel COMMAND --help`.\n"
            "\nThe order of words does not matter.\n\n"
            "Options:\n  -h,--help   this text\n  --version   the program's version\n\n"
            "Exit codes: 0 done, 1 a check asked for did not hold, 2 wrong usage, 3 input could not be read or is invalid,\n"

@@ -5,7 +5,7 @@
 
 namespace rawtexel::test {
 
-/// "" or why no port can be run: no Vulkan device, no glslangValidator. Lets Mesa's drivers compile shaders without optimising them, which
+/// "" or why no port can be run: no Vulkan device, no glslangValidator, a build with sanitizers. Lets Mesa's drivers compile shaders without optimising them, which
 /// takes longer than to run them once.
 std::string why_no_ports();
 

@@ -94,6 +94,55 @@ TEST(Vectors, AllGoesIntoAFolderEach) {
         EXPECT_TRUE(cli::is_suite_folder(folder / "all/" + std::string(info.name))) << info.name;
 }
 
+// What is known to go wrong in stochastic texture filtering, all of it: a group that goes missing takes a pitfall with it.
+TEST(Vectors, TryEveryKnownPitfallByName) {
+    const Suite suite = *cli::make_suite("adversarial");
+    for (const char* pitfall : {"clamp reaches every texel",
+                                "the border has its colour",
+                                "across the seam",
+                                "level, kernel and alpha count",
+                                "every lane has its texture",
+                                "every lane has its level",
+                                "as many probes as counted",
+                                "normal offsets of volumes",
+                                "a number of 0",
+                                "bias is added to derivatives",
+                                "one number, one choice",
+                                "cube maps",
+                                "ratios beyond 16",
+                                "last levels of thin textures",
+                                "a tap of weight 0",
+                                "just below 0",
+                                "Gaussians are integrated over texels",
+                                "what others lack",
+                                "magnified and squared",
+                                "minified and squared",
+                                "no blend between two normals",
+                                "ties and texel centres",
+                                "centres of 4095 texels",
+                                "wraps come after selection",
+                                "clamp before the level is drawn",
+                                "no footprint",
+                                "far from the origin",
+                                "a number is never 1",
+                                "the largest number",
+                                "maps share their numbers",
+                                "the same case again",
+                                "the mean of draws",
+                                "a camera at rest",
+                                "a drawn texel is raw",
+                                "weights of either sign are normalised",
+                                "levels of odd textures",
+                                "an address is a number",
+                                "which order is which",
+                                "sRGB texels",
+                                "volumes have three axes",
+                                "an infinite texel beside"}) {
+        EXPECT_TRUE(std::ranges::any_of(suite.groups, [&](const cli::CaseGroup& group) { return group.name == pitfall; })) << pitfall;
+    }
+    EXPECT_EQ(suite.groups.size(), 41u);
+}
+
 // The independent verifier of texunit finds every sampled value legal, and the ends of its interval no farther off than the freedoms
 // explain.
 TEST(Vectors, SampledValuesAreLegalToTheVerifier) {
