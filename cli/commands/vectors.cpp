@@ -5,6 +5,7 @@
 #include "cli/illumination.h"
 #include "cli/limits.h"
 #include "cli/option_values.h"
+#include "cli/output_files.h"
 #include "cli/vectors/scene_suite.h"
 #include "cli/vectors/suite_files.h"
 #include "cli/view.h"
@@ -93,6 +94,14 @@ class VectorsCommand : public Command {
             throw UsageError("--suite " + suite_ + ": options of frames and lookups go with --from SCENE; suites have their own");
     }
 
+    /// The suite's files replace none of the scene's.
+    void check_not_read(const std::vector<std::string>& opened) const {
+        std::vector<OutputFile> outputs;
+        for (const char* file : {kSuiteFile, kCasesFile, kExpectedFile, kTexturesFile, kTexelsFile, kWordsFile})
+            outputs.push_back({"-o", output_ + "/" + file});
+        check_apart(outputs, opened);
+    }
+
     Suite make_from_scene(const Invocation& invocation) {
         if (request_.lookup.precision == texunit::Precision::Gpu)
             throw UsageError("--precision gpu: vectors have exact lookups, and the interval that a device's precision leaves");
@@ -100,7 +109,11 @@ class VectorsCommand : public Command {
             throw UsageError("--footprint sample: the frame has one sample a pixel");
         settle(request_);
         ProgressReport progress(invocation.err, ProgressMode::Never, invocation.err_is_terminal);
-        shading::Scene scene = load_scene(scene_, request_, load_options(request_, invocation, progress));
+        std::vector<std::string> opened;
+        scenes::LoadOptions files = load_options(request_, invocation, progress);
+        files.opened = [&](const std::string& path) { opened.push_back(path); };
+        shading::Scene scene = load_scene(scene_, request_, files);
+        check_not_read(opened);
         const auto executor = shading::make_executor(shading::default_executor_kind(), 0);
         shading::cluster_meshes(scene, *executor);
         const ImageSize size = request_.image_size();

@@ -391,6 +391,15 @@ TEST(SceneVectors, RefuseWhatTheyDoNotHave) {
     EXPECT_EQ(refused({"--from", "plane", "--cases", "0"}, 2, "--cases"), "");
     EXPECT_EQ(refused({"--from", "no-such-scene.glb"}, 3, "no-such-scene.glb"), "");
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+    // A scene whose buffer has the name of one of the suite's files keeps it.
+    write_quad(folder);
+    std::string gltf = folder.read("quad.gltf");
+    gltf.replace(gltf.find("quad.bin"), 8, "cases.bin");
+    folder.write("quad.gltf", gltf);
+    std::filesystem::rename(folder / "quad.bin", folder / "cases.bin");
+    const std::string before = folder.read("cases.bin");
+    EXPECT_EQ(why_not_failed(run({"vectors", "--from", folder / "quad.gltf", "-o", folder.path()}), 2, "cases.bin"), "");
+    EXPECT_EQ(folder.read("cases.bin"), before);
 }
 
 }  // namespace
