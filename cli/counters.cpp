@@ -9,6 +9,7 @@ constexpr std::array kCounters{
     CounterInfo{"image.width", "pixels of the image written"},
     CounterInfo{"image.height", "pixels of the image written"},
     CounterInfo{"image.spp", "samples per pixel"},
+    CounterInfo{"image.mean_spp", "of --adaptive: samples per pixel, the mean over the image"},
     CounterInfo{"image.samples_shaded", "samples that saw a surface; the background is left out"},
     CounterInfo{"frame_s.min", "wall seconds of the fastest frame, geometry to resolved image"},
     CounterInfo{"frame_s.median", "wall seconds of the median frame"},

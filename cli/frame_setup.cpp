@@ -36,6 +36,7 @@ shading::RenderOptions frame_options(const RenderRequest& request, const shading
     options.crop = request.crop;
     options.camera = camera;
     options.spp = request.samples.spp;
+    options.adaptive_error = double(request.samples.adaptive.value_or(0.0f));
     options.pixel_filter = request.samples.pixel_filter;
     options.pixel_jitter = request.samples.pixel_jitter;
     options.seed = request.samples.seed;

@@ -20,6 +20,7 @@ scenes::Metadata image_metadata(const RunRecord& record, bool has_display_transf
         {"rawtexel:pixel-filter", std::string(to_string(request.samples.pixel_filter))},
         {"rawtexel:pixel-jitter", std::string(to_string(request.samples.pixel_jitter))},
     };
+    if (request.samples.adaptive) metadata.emplace_back("rawtexel:adaptive", print_number(*request.samples.adaptive));
     if (record.standard_error) metadata.emplace_back("rawtexel:standard_error", print_number(float(*record.standard_error)));
     if (request.sequence.is_sequence()) {
         metadata.emplace_back("rawtexel:frames", std::to_string(request.sequence.frames));

@@ -6,6 +6,7 @@
 #include "cli/limits.h"
 #include "cli/option_values.h"
 #include "cli/word_list.h"
+#include "shading/adaptive_blocks.h"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +19,7 @@ namespace {
 
 using shading::Aov;
 
-constexpr NumberRange kReferenceError{1e-6f, 1e6f};
+constexpr NumberRange kStandardError{1e-6f, 1e6f};
 constexpr NumberRange kFov{kMinFov, kMaxFov}, kAngle{-kMaxAngle, kMaxAngle}, kZoom{kMinZoom, kMaxZoom}, kAmbient{0.0f, kMaxAmbient},
     kRadiance{0.0f, kMaxRadiance}, kLux{0.0f, kMaxLux}, kExposure{-kMaxExposure, kMaxExposure}, kLength{-kMaxLength, kMaxLength};
 
@@ -98,11 +99,15 @@ void declare_sample_options(CommandLine& line, SampleOptions& samples) {
                     using shading::PixelJitter;
                     samples.pixel_jitter = parse_choice("--pixel-jitter", text, {PixelJitter::Frame, PixelJitter::Pixel});
                 });
+    line.option("--adaptive", "ERROR",
+                "blocks of 16x16 pixels stop at 16, 32, 64 ... samples once their standard error of linear radiance is below ERROR, " +
+                    print(kStandardError) + "; --spp is the most, --aov spp shows them",
+                [&](const std::string& text) { samples.adaptive = parse_number("--adaptive", text, kStandardError); });
     line.option("--reference", "ERROR",
                 "the truth instead: level 0, every texel shaded and then filtered, an offset per sample and pixel, samples until the "
                 "image's standard error is below ERROR, " +
-                    print(kReferenceError),
-                [&](const std::string& text) { samples.reference = parse_number("--reference", text, kReferenceError); });
+                    print(kStandardError),
+                [&](const std::string& text) { samples.reference = parse_number("--reference", text, kStandardError); });
     line.option("--seed", "S", "of all random numbers, 0 to " + std::to_string(UINT32_MAX) + " (default 0)",
                 [&](const std::string& text) { samples.seed = uint32_t(parse_integer("--seed", text, 0, UINT32_MAX)); });
 }
@@ -154,6 +159,18 @@ void check_view(const ViewOptions& view) {
     if (view.orbit && view.eye) throw UsageError("--orbit and --eye exclude each other");
 }
 
+void check_adaptive(const RenderRequest& request) {
+    if (request.samples.spp <= shading::kFirstAdaptiveDecision)
+        throw UsageError("--adaptive: blocks stop at 16 samples at the earliest, and --spp is " + std::to_string(request.samples.spp) +
+                         " (allowed: with --spp 17 and more)");
+    const ImageSize size = request.image_size();
+    if (!shading::holds_whole_blocks(request.crop, size.width, size.height))
+        throw UsageError("--adaptive: blocks of 16x16 pixels stop as a whole, and --crop " + print(request.crop) +
+                         " cuts some (allowed: multiples of 16, or the image's edge)");
+    if (request.sequence.is_sequence() && request.sequence.temporal().accumulation == shading::Accumulation::Mean)
+        throw UsageError("--adaptive: the mean over frames keeps every sample (allowed: --accumulate ema or reproject)");
+}
+
 // The truth leaves no choice of levels, order, estimator and samples: options that make one are refused, and what it chooses is put down.
 void preset_reference(RenderRequest& request) {
     LookupOptions& lookup = request.lookup;
@@ -167,6 +184,7 @@ void preset_reference(RenderRequest& request) {
         {lookup.filtering.texture_jitter != shading::TextureJitter::None, "--texture-jitter"},
         {lookup.precision != texunit::Precision::Exact, "--precision"},
         {request.samples.spp != 1, "--spp"},
+        {request.samples.adaptive.has_value(), "--adaptive"},
         {request.sequence.is_sequence(), "--frames and --accumulate"},
     };
     for (const auto& [given, options] : taken)
@@ -295,6 +313,7 @@ void settle(RenderRequest& request) {
     check_lookup(request.lookup);
     if (request.light.peer_shading) preset_peer_shading(request);
     if (request.samples.reference) preset_reference(request);
+    if (request.samples.adaptive) check_adaptive(request);
     if (request.lookup.footprint.area == shading::FootprintArea::Sample && request.samples.spp == 1)
         throw UsageError("--footprint sample: one sample's share is the whole pixel (allowed: with --spp 2 and more)");
     if (request.lookup.filtering.shadow_taps == shading::ShadowTaps::One && request.light.shadows == false)

@@ -71,6 +71,7 @@ struct SampleOptions {
     shading::PixelFilter pixel_filter = shading::PixelFilter::Box;
     shading::PixelJitter pixel_jitter = shading::PixelJitter::Frame;
     uint32_t seed = 0;
+    std::optional<float> adaptive;   ///< the standard error at which a block of pixels takes no more samples
     std::optional<float> reference;  ///< the standard error at which the truth is good enough
 };
 

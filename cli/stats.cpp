@@ -29,10 +29,12 @@ double median(std::vector<double> values) {
 
 Json image_numbers(const RunRecord& record) {
     const shading::RenderResult& result = record.result;
-    return {{"width", result.radiance.width},
-            {"height", result.radiance.height},
-            {"spp", record.request.samples.spp},
-            {"samples_shaded", result.samples_shaded}};
+    Json json{{"width", result.radiance.width},
+              {"height", result.radiance.height},
+              {"spp", record.request.samples.spp},
+              {"samples_shaded", result.samples_shaded}};
+    if (const std::optional<double> mean = mean_samples(result)) json["mean_spp"] = *mean;
+    return json;
 }
 
 Json frame_numbers(const std::vector<double>& frame_s) {

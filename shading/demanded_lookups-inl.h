@@ -65,6 +65,7 @@ class DemandedLookups {
         std::fill_n(offset_, texunit::kWaveLanes, offset);
         scratch_.candidates.sort();
         for (const WavePlace& place : waves_) {
+            if (scratch_.adaptive && !scratch_.adaptive->takes_samples(place.index)) continue;
             wave_.index = place.index;
             wave_.x = tile_x_ + place.x;
             wave_.y = tile_y_ + place.y;

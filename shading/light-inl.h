@@ -23,12 +23,13 @@ template <class V>
 struct ShadowTest {
     const ShadowMap* map;  ///< null: nothing
     bool draws;            ///< one depth test by the numbers
+    bool skips;            ///< tests that weigh nothing
     V x, y;
 
     template <class D>
     HWY_INLINE V visibility(D d, const ShadingPoint<V>& p) const {
-        if (draws) return drawn_shadow_visibility_lanes(d, *map, p.position, p.geometric_normal, x, y);
-        return shadow_visibility_lanes(d, *map, p.position, p.geometric_normal);
+        if (draws) return drawn_shadow_visibility_lanes(d, *map, p.position, p.geometric_normal, x, y, skips);
+        return shadow_visibility_lanes(d, *map, p.position, p.geometric_normal, skips);
     }
 };
 
@@ -39,15 +40,15 @@ HWY_INLINE Vector3<V> punctual_radiance(D d, const Light& light, const ShadowTes
     const Incidence<V> arriving = incidence(d, light, p.position);
     const V n_dot_l = dot(p.normal, arriving.to_light);
     const auto lit = hn::And(hn::Gt(n_dot_l, zero), hn::Gt(arriving.attenuation, zero));
-    if (hn::AllFalse(d, lit)) return {zero, zero, zero};
+    if (shadow.skips && hn::AllFalse(d, lit)) return {zero, zero, zero};
 
     V share = arriving.attenuation;
     if (shadow.map) share = hn::Mul(share, shadow.visibility(d, p));
-    share = hn::IfThenElseZero(lit, share);
-    if (hn::AllFalse(d, hn::Gt(share, zero))) return {zero, zero, zero};
+    const auto arrives = hn::And(lit, hn::Gt(share, zero));
+    if (shadow.skips && hn::AllFalse(d, arrives)) return {zero, zero, zero};
     const Vector3<V> reflected = brdf_cosine(d, p, arriving.to_light, hn::Max(n_dot_l, zero));
     const Vector3<V> radiance = mul(scale(reflected, share), set3(d, light.color * light.intensity));
-    return {hn::IfThenElseZero(lit, radiance.x), hn::IfThenElseZero(lit, radiance.y), hn::IfThenElseZero(lit, radiance.z)};
+    return {hn::IfThenElseZero(arrives, radiance.x), hn::IfThenElseZero(arrives, radiance.y), hn::IfThenElseZero(arrives, radiance.z)};
 }
 
 /// Environment light that the surface reflects, F0 = 0..1. SplitSum: its weight times the mean light of the prefiltered lobe that resembles
@@ -96,9 +97,9 @@ HWY_INLINE Vector3<V> environment_radiance(D d, const Environment::Tables& table
     return scale(radiance, p.occlusion);
 }
 
-/// Radiance towards the viewer at the lanes of `mask`: shade_surface of lighting.h.
+/// Radiance towards the viewer at the lanes of `mask`: shade_surface of lighting.h. `skips`: what weighs nothing is left out.
 inline void shade_lanes(const Lighting& lighting, const SurfaceWave& surface, WaveMask mask, WaveVector& radiance,
-                        const ShadowNumbers* shadow_numbers = nullptr) {
+                        const ShadowNumbers* shadow_numbers = nullptr, bool skips = true) {
     const hn::ScalableTag<float> d;
     for (size_t i = 0; i < size_t(texunit::kWaveLanes); i += hn::Lanes(d)) {
         if (!any_active(mask, i, hn::Lanes(d))) {
@@ -111,9 +112,9 @@ inline void shade_lanes(const Lighting& lighting, const SurfaceWave& surface, Wa
 
         // The shadow map is the first directional light's.
         const auto zero = hn::Zero(d);
-        ShadowTest<hn::Vec<decltype(d)>> shadow{lighting.shadow.get(), shadow_numbers != nullptr, zero, zero};
+        ShadowTest<hn::Vec<decltype(d)>> shadow{lighting.shadow.get(), shadow_numbers != nullptr, skips, zero, zero};
         if (shadow.draws) shadow.x = hn::Load(d, shadow_numbers->x.lane + i), shadow.y = hn::Load(d, shadow_numbers->y.lane + i);
-        const ShadowTest<hn::Vec<decltype(d)>> nothing{nullptr, false, zero, zero};
+        const ShadowTest<hn::Vec<decltype(d)>> nothing{nullptr, false, skips, zero, zero};
         for (const Light& light : lighting.lights) {
             const bool directional = light.type == Light::Type::Directional;
             sum = add(sum, punctual_radiance(d, light, directional ? shadow : nothing, point));

@@ -28,12 +28,24 @@ struct MapColors {
     texunit::WaveColor moments[2];  ///< as GlossState::moments
 };
 
+HWY_NOINLINE inline void fill_constant(const MapState& map, texunit::WaveColor& out) {
+    const FloatLanes d;
+    const std::array<float, 4> colour = map.texture->texel(0, 0, 0, 0);
+    for (size_t c = 0; c < 4; ++c)
+        for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) hn::Store(hn::Set(d, colour[c]), d, out.channel[c].lane + i);
+}
+
 /// Those that no plan draws. `lod`: of the base colour's lookup, where asked for.
 HWY_INLINE void look_up_maps(const MaterialState& material, const FragmentWave& fragment, WaveMask mask, MapColors& out, WaveFloat* lod) {
     for (int slot = 0; slot < kMapSlots; ++slot) {
         const MapState& map = material.maps[size_t(slot)];
         if (!map.texture || material.plans.averaged.holds(slot) || material.plans.shaded.holds(slot)) continue;
-        look_up(map, fragment.coordinates[map.coordinates], mask, out.slot[slot], slot == kBaseColor ? lod : nullptr);
+        WaveFloat* const found_lod = slot == kBaseColor ? lod : nullptr;
+        if (map.may_be_constant && found_lod == nullptr && map.texture->is_one_colour()) {
+            fill_constant(map, out.slot[slot]);
+            continue;
+        }
+        look_up(map, fragment.coordinates[map.coordinates], mask, out.slot[slot], found_lod);
     }
     for (size_t k = 0; k < 2; ++k) {
         if (!material.gloss.moments[k]) continue;

@@ -86,6 +86,15 @@ void add_mask(const Scene& scene, const LookupOverrides& overrides, MaterialStat
     state.mask.coordinates = coordinates_of(state, map);
 }
 
+/// Whether a lookup of a texture of one colour is that colour to the bit.
+bool keeps_constants(const texunit::SamplerState& sampler) {
+    const auto is_narrow = [](const texunit::Kernel& kernel) {
+        return kernel == texunit::Kernel::Nearest || kernel == texunit::Kernel::Bilinear;
+    };
+    return sampler.estimator == texunit::Estimator::All && is_narrow(sampler.magnify) && is_narrow(sampler.minify) &&
+           sampler.is_isotropic() && sampler.wrap_s != texunit::Wrap::ClampToBorder && sampler.wrap_t != texunit::Wrap::ClampToBorder;
+}
+
 MaterialState make_material_state(const Scene& scene, uint32_t index, const LookupOverrides& overrides) {
     MaterialState state;
     state.material = &scene.materials[index];
@@ -112,6 +121,7 @@ MaterialState make_material_state(const Scene& scene, uint32_t index, const Look
         if (asked.policy.filter) lookup.sampler.magnify = lookup.sampler.minify = *asked.policy.filter;
         if (asked.policy.mip) lookup.sampler.mip = *asked.policy.mip;
         lookup.coordinates = coordinates_of(state, map);
+        lookup.may_be_constant = overrides.constant_texels && keeps_constants(lookup.sampler);
     }
     make_plans(scene, overrides, state);
     // Where a policy has taps shaded there is no one surface to blend.

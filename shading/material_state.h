@@ -26,7 +26,8 @@ struct MapState {
     texunit::Texture* texture = nullptr;
     uint32_t texture_index = 0;  ///< in Scene::textures
     texunit::SamplerState sampler;
-    int coordinates = 0;  ///< in MaterialState::coordinates
+    int coordinates = 0;           ///< in MaterialState::coordinates
+    bool may_be_constant = false;  ///< where its texture is one colour, the lookup is that colour to the bit
 };
 
 /// A baseline that corrects gloss for what filtering takes from the normal map.
@@ -62,7 +63,8 @@ struct LookupOverrides {
     FootprintOptions footprint;
     FilteringOptions filtering;
     texunit::Precision precision = texunit::Precision::Exact;
-    bool occlusion = true;  ///< false: nothing reads occlusion maps
+    bool occlusion = true;        ///< false: nothing reads occlusion maps
+    bool constant_texels = true;  ///< textures of one colour need no lookup
 };
 
 /// Makes `sampler` look up as the overrides say.

@@ -150,14 +150,14 @@ class MaterialTaps {
         }
     }
 
-    void find_numbers(const texunit::RandomAddress& address, texunit::DrawNumbers& positive, texunit::DrawNumbers& negative) const {
+    void find_numbers(const texunit::RandomAddress& address, texunit::DrawNumbers& positive, texunit::DrawNumbers& negative) {
         // Who listens is told of all roles.
         const texunit::NumberRoles roles = hear ? texunit::NumberRoles{} : material().plans.roles;
-        draw_numbers(address, positive, material().plans.noise, roles);
+        draw_numbers(address, positive, material().plans.noise, roles, states_);
         if (material().plans.common_numbers) {
             negative = positive;
         } else {
-            negative_draw_numbers(address, negative, material().plans.noise, roles);
+            negative_draw_numbers(address, negative, material().plans.noise, roles, states_);
         }
     }
 
@@ -172,6 +172,7 @@ class MaterialTaps {
     TappedFragments fragments_;
     texunit::WaveCoordinates filled_[kMapSlots];
     texunit::DrawNumbers positive_{}, negative_{};
+    texunit::RandomStates states_;
 };
 
 /// Scales footprints by 2^(U - 1/2), so that their nearest level is one of the two that trilinear filtering mixes, drawn with its weight.

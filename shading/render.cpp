@@ -13,6 +13,7 @@
 #include <atomic>
 #include <cassert>
 #include <chrono>
+#include <numeric>
 #include <optional>
 
 namespace rawtexel::shading {
@@ -125,7 +126,19 @@ LookupOverrides lookup_overrides(const RenderOptions& options, bool occlusion) {
             .footprint = options.footprint,
             .filtering = options.filtering,
             .precision = options.precision,
-            .occlusion = occlusion};
+            .occlusion = occlusion,
+            .constant_texels = options.skips.constant_texels};
+}
+
+/// Makes what the options do not leave to the lookups that need it.
+void make_texels(const Scene& scene, const Skips& skips, Executor& executor) {
+    if (skips.lazy_files && skips.lazy_levels && skips.lazy_blocks) return;
+    executor.parallel_for(int64_t(scene.textures.size()), [&](int64_t index, int) {
+        texunit::Texture& texture = *scene.textures[size_t(index)].texture;
+        if (!skips.lazy_files) texture.ensure(0, 0, 0, 0);
+        for (int level = 0; level < texture.shape().levels; ++level)
+            if (level < texture.source_levels() ? !skips.lazy_blocks : !skips.lazy_levels) texture.make_level(level);
+    });
 }
 
 /// With what the layers of counts need.
@@ -139,22 +152,39 @@ FetchOptions fetch_options(const RenderOptions& options) {
 }
 
 void fill_count_layers(const RenderOptions& options, RenderResult& result) {
+    const auto samples = [&](size_t pixel) {
+        return result.sample_counts.width > 0 ? result.sample_counts.values[pixel] : float(options.spp);
+    };
     for (size_t i = 0; i < options.aovs.size(); ++i) {
         std::vector<float>& values = result.layers[i].image.values;
         if (options.aovs[i] == Aov::Lines) values = result.fetches->pixel(PixelCount::LinesPixel).values;
         if (options.aovs[i] != Aov::Texels) continue;
         values = result.fetches->pixel(PixelCount::TexelsRequested).values;
-        for (float& value : values) value /= float(options.spp);
+        for (size_t pixel = 0; pixel < values.size(); ++pixel) values[pixel] /= samples(pixel);
     }
 }
 
 }  // namespace
+
+std::optional<double> mean_samples(const RenderResult& result) {
+    const std::vector<float>& counts = result.sample_counts.values;
+    if (counts.empty()) return std::nullopt;
+    return std::accumulate(counts.begin(), counts.end(), 0.0) / double(counts.size());
+}
+
+bool holds_whole_blocks(const Crop& crop, int width, int height) {
+    if (crop.width == 0) return true;
+    const auto is_edge = [](int at, int extent) { return at % kAdaptiveBlock == 0 || at == extent; };
+    return is_edge(crop.x, width) && is_edge(crop.y, height) && is_edge(crop.x + crop.width, width) &&
+           is_edge(crop.y + crop.height, height);
+}
 
 std::string refusal(const Scene& scene, const RenderOptions& options) { return refusal(scene, lookup_overrides(options, true)); }
 
 RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOptions& options, Executor& executor,
                     const Progress& progress) {
     assert(options.width > 0 && options.height > 0 && options.spp > 0);
+    assert(options.adaptive_error == 0 || (options.sums == nullptr && holds_whole_blocks(options.crop, options.width, options.height)));
     const Clock::time_point start = Clock::now();
     const PixelRect visible = visible_pixels(options);
     const FetchOptions fetches = fetch_options(options);
@@ -162,12 +192,14 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
     const int tile_size = fetches.needs_order() ? kCanonicalTile : options.tile_size;
     const bool indirect_light = lighting.environment != nullptr || lighting.ambient != 0.0f;
     const DrawStates states = make_draw_states(scene, lookup_overrides(options, indirect_light));
+    make_texels(scene, options.skips, executor);
     const raster::Frame frame = make_frame(states, options, visible, tile_size, executor);
 
     RenderResult result;
     result.times.geometry_s = seconds_since(start);
     result.radiance = Image(visible.x1 - visible.x0, visible.y1 - visible.y0, 3);
     if (options.coverage) result.coverage = Image(result.radiance.width, result.radiance.height, 1);
+    if (options.adaptive_error > 0) result.sample_counts = Image(result.radiance.width, result.radiance.height, 1);
     for (const Aov aov : options.aovs) result.layers.push_back(make_layer(aov, result.radiance.width, result.radiance.height));
 
     const TileInputs inputs{
@@ -178,6 +210,7 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
         .visible = visible,
         .first_sample = options.first_sample,
         .spp = options.spp,
+        .adaptive_error = options.adaptive_error,
         .pixel_filter = options.pixel_filter,
         .pixel_jitter = options.pixel_jitter,
         .seed = options.seed,
@@ -188,6 +221,7 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
         .texture_jitter = options.filtering.texture_jitter,
         .noise = options.filtering.noise,
         .fetch_model = fetches.model,
+        .skip_zero_weights = options.skips.zero_weight_taps,
         .skip_empty_tiles = options.skips.empty_tiles,
     };
     std::optional<FetchAccount> account;

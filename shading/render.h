@@ -36,6 +36,9 @@ struct RenderOptions {
     Crop crop;
     Camera camera;
     int spp = 1;
+    /// Above 0: blocks of 16x16 pixels stop at 16, 32, 64 ... samples where the standard error of linear radiance is below it, and `spp` is
+    /// the most (shading/adaptive_blocks.h). A crop holds whole blocks, and `sums` is null (asserted).
+    double adaptive_error = 0;
     /// The first of the `spp` samples: parts of one image may be rendered apart, and SampleTree adds them to the bits of the whole.
     uint32_t first_sample = 0;
     int image_spp = 0;  ///< of the whole image, where `spp` is of a part of it: FootprintArea::Sample goes by it. 0: spp
@@ -71,11 +74,15 @@ struct RenderResult {
     Image radiance;             ///< 3 channels, crop extents
     std::vector<Layer> layers;  ///< one per requested AOV, in order
     Image coverage;             ///< 1 channel: the share of a pixel's samples that saw a surface; empty unless asked for
+    Image sample_counts;        ///< 1 channel: samples of each pixel; empty unless adaptive
     raster::FrameCounts geometry;
     uint64_t samples_shaded = 0;            ///< samples that saw a surface
     std::unique_ptr<FrameFetches> fetches;  ///< null when nothing was counted
     RenderTimes times;
 };
+
+/// Samples per pixel, the mean over the image; nullopt where all pixels took as many.
+std::optional<double> mean_samples(const RenderResult& result);
 
 /// Called now and then from any thread with the share done, 0..1.
 using Progress = std::function<void(double)>;
@@ -83,6 +90,9 @@ using Progress = std::function<void(double)>;
 /// Lighting as the options ask, shadow map drawn. `shadows`: the first directional light casts.
 Lighting resolve_lighting(const Scene& scene, std::vector<Light> lights, float ambient, std::shared_ptr<const Environment> environment,
                           bool shadows, Executor& executor);
+
+/// Whether blocks of adaptive sampling lie in the crop wholly or not at all.
+bool holds_whole_blocks(const Crop& crop, int width, int height);
 
 /// Why the scene's maps cannot be looked up as the options say, as a line for people that names the material; empty where they can.
 std::string refusal(const Scene& scene, const RenderOptions& options);

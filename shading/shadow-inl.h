@@ -45,6 +45,12 @@ HWY_INLINE TentTaps<V> tent_taps(D d, V at, int size) {
     return taps;
 }
 
+/// Lanes with a tap inside of the map.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE hn::Mask<D> within_reach(D d, const TentTaps<V>& taps, int size) {
+    return hn::And(hn::Gt(taps.first, hn::Set(d, -4.0f)), hn::Lt(taps.first, hn::Set(d, float(size))));
+}
+
 /// A row of the map's matrix times a vector, without the translation.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V row_dot(D d, const glm::mat4& m, int row, const Vector3<V>& v) {
@@ -115,14 +121,16 @@ HWY_INLINE V hidden_row(D d, const ShadowMap& map, const ReceiverPlane<V>& plane
 
 /// Share of the map's light that reaches each lane's surface. Any input is safe; non-finite positions are outside the map.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V shadow_visibility_lanes(D d, const ShadowMap& map, const Vector3<V>& position, const Vector3<V>& normal) {
+HWY_INLINE V shadow_visibility_lanes(D d, const ShadowMap& map, const Vector3<V>& position, const Vector3<V>& normal, bool skips) {
     const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const V cosine = hn::Mul(row_dot(d, map.map_from_world, 2, normal), hn::Set(d, map.depth_world));
     const auto facing = hn::Gt(cosine, zero);
-    if (hn::AllFalse(d, facing)) return zero;
+    if (skips && hn::AllFalse(d, facing)) return zero;
 
     const ReceiverPlane<V> plane = receiver_plane(d, map, position, normal, cosine);
     const TentTaps<V> columns = tent_taps(d, plane.x, map.size), rows = tent_taps(d, plane.y, map.size);
+    const auto inside = hn::And(within_reach(d, columns, map.size), within_reach(d, rows, map.size));
+    if (skips && hn::AllFalse(d, inside)) return hn::IfThenElseZero(facing, one);
     V hidden = zero;
     hidden = hidden_row(d, map, plane, columns, rows.first, rows.weight0, hidden);
     hidden = hidden_row(d, map, plane, columns, hn::Add(rows.first, hn::Set(d, 1.0f)), rows.weight1, hidden);
@@ -133,11 +141,12 @@ HWY_INLINE V shadow_visibility_lanes(D d, const ShadowMap& map, const Vector3<V>
 
 /// One of the 16 tests, drawn with its weight by two numbers in [0, 1): 0 or 1, and in the mean shadow_visibility_lanes.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V drawn_shadow_visibility_lanes(D d, const ShadowMap& map, const Vector3<V>& position, const Vector3<V>& normal, V x, V y) {
+HWY_INLINE V drawn_shadow_visibility_lanes(D d, const ShadowMap& map, const Vector3<V>& position, const Vector3<V>& normal, V x, V y,
+                                           bool skips) {
     const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const V cosine = hn::Mul(row_dot(d, map.map_from_world, 2, normal), hn::Set(d, map.depth_world));
     const auto facing = hn::Gt(cosine, zero);
-    if (hn::AllFalse(d, facing)) return zero;
+    if (skips && hn::AllFalse(d, facing)) return zero;
 
     const ReceiverPlane<V> plane = receiver_plane(d, map, position, normal, cosine);
     TentTaps<V> column = tent_taps(d, plane.x, map.size);

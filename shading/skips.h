@@ -14,6 +14,11 @@ struct Skips {
     bool occlusion = true;
     bool hiz = true;
     bool empty_tiles = true;
+    bool lazy_files = true;
+    bool lazy_levels = true;
+    bool lazy_blocks = true;
+    bool constant_texels = true;
+    bool zero_weight_taps = true;
 };
 
 /// One switch: what --skip and --no-skip call it, and what it leaves out.
@@ -30,6 +35,13 @@ inline constexpr std::array kSkips{
     SkipInfo{"occlusion", &Skips::occlusion, "clusters behind what large clusters cover"},
     SkipInfo{"hiz", &Skips::hiz, "triangles in 8x8 pixels behind what these hold"},
     SkipInfo{"empty-tiles", &Skips::empty_tiles, "visibility of tiles without a triangle"},
+    SkipInfo{"lazy-files", &Skips::lazy_files, "pixels of textures that no sample reads"},
+    SkipInfo{"lazy-levels", &Skips::lazy_levels, "generated levels that no sample reads"},
+    SkipInfo{"lazy-blocks", &Skips::lazy_blocks, "stored blocks that no sample reads"},
+    SkipInfo{"constant-texels", &Skips::constant_texels,
+             "lookups by nearest, bilinear or trilinear filtering of small textures of one colour"},
+    SkipInfo{"zero-weight-taps", &Skips::zero_weight_taps,
+             "shadow tests outside the map, tests and reflections of light that does not arrive"},
 };
 
 }  // namespace rawtexel::shading

@@ -61,12 +61,14 @@ class TileRenderer {
         using Clock = std::chrono::steady_clock;
         find_sequence_shifts();
         scratch_.sums.clear();
+        if (scratch_.adaptive) scratch_.adaptive->begin_tile(shown_pixels());
         std::optional<DemandedLookups> demanded;
         if (listens()) {
             demanded.emplace(inputs_, tile_x_, tile_y_, scratch_);
             scratch_.listener->begin_tile(tile_x_, tile_y_);
         }
         for (uint32_t k = 0; k < uint32_t(inputs_.spp); ++k) {
+            if (scratch_.adaptive && !scratch_.adaptive->any_takes_samples()) break;
             const uint32_t sample = inputs_.first_sample + k;
             const auto start = Clock::now();
             find_offsets(sample);
@@ -76,6 +78,7 @@ class TileRenderer {
             shade_sample(sample);
             if (demanded) demanded->tell_sample(sample, frame_offset_);
             scratch_.sums.add(sample, {scratch_.sample.data()->lane, scratch_.sample.size() * texunit::kWaveLanes});
+            if (scratch_.adaptive) judge_sample(k + 1);
             scratch_.totals.raster_s += std::chrono::duration<double>(drawn - start).count();
             scratch_.totals.shade_s += std::chrono::duration<double>(Clock::now() - drawn).count();
         }
@@ -85,6 +88,25 @@ class TileRenderer {
   private:
     bool listens() const { return scratch_.listener != nullptr; }
     bool watched() const { return scratch_.fragment_listener != nullptr; }
+    /// Of the tile; may be none.
+    PixelRect shown_pixels() const {
+        const PixelRect& shown = inputs_.visible;
+        const int left = tile_x_ * tile_size_, top = tile_y_ * tile_size_;
+        return {std::max(shown.x0 - left, 0), std::max(shown.y0 - top, 0), std::min(shown.x1 - left, tile_size_),
+                std::min(shown.y1 - top, tile_size_)};
+    }
+    bool takes_samples(size_t wave) const { return !scratch_.adaptive || scratch_.adaptive->takes_samples(wave); }
+    size_t wave_of(const raster::CandidateWave& candidate) const {
+        return wave_at(candidate.x - tile_x_ * tile_size_, candidate.y - tile_y_ * tile_size_);
+    }
+
+    /// After `count` samples.
+    HWY_NOINLINE void judge_sample(uint32_t count) {
+        scratch_.adaptive->add(scratch_.sample);
+        const bool decides = count >= uint32_t(kFirstAdaptiveDecision) && std::has_single_bit(count);
+        if (decides && count < uint32_t(inputs_.spp)) scratch_.adaptive->decide(scratch_.sums);
+    }
+
     size_t wave_count() const { return size_t(tile_size_ * tile_size_ / texunit::kWaveLanes); }
     WaveFloat& plane(int number, size_t wave) { return scratch_.sample[size_t(number) * wave_count() + wave]; }
     WaveFloat& first_sample_plane(int number, size_t wave) { return scratch_.first_sample[size_t(number) * wave_count() + wave]; }
@@ -127,7 +149,8 @@ class TileRenderer {
             scratch_.candidates.keeps_opaque = listens() && inputs_.fetch_model != FetchModel::Visible;
             raster::HWY_NAMESPACE::tile_visibility(frame_, tile_x_, tile_y_, samples, ToldCoverage{*this, sample}, scratch_.visibility);
         } else {
-            const auto cover = [this](const raster::CandidateWave& candidate) HWY_ATTR { return coverage_.cover(candidate); };
+            const auto cover = [this](const raster::CandidateWave& candidate)
+                                   HWY_ATTR { return takes_samples(wave_of(candidate)) ? coverage_.cover(candidate) : 0u; };
             raster::HWY_NAMESPACE::tile_visibility(frame_, tile_x_, tile_y_, samples, cover, scratch_.visibility);
         }
         scratch_.totals.hiz_rejected += scratch_.visibility.hiz_rejected;
@@ -138,6 +161,7 @@ class TileRenderer {
         TileRenderer& tile;
         uint32_t sample;
         uint32_t operator()(const raster::CandidateWave& candidate) {
+            if (!tile.takes_samples(tile.wave_of(candidate))) return 0;
             const uint32_t covered = tile.coverage_.cover(candidate);
             if (tile.listens()) tile.log(candidate, covered);
             if (tile.watched()) tile.tell_judged(candidate, covered, sample);
@@ -150,8 +174,7 @@ class TileRenderer {
 
     void log(const raster::CandidateWave& candidate, WaveMask covered) {
         const WaveMask lanes = candidate.mask & lanes_inside(tested_, candidate.x, candidate.y);
-        const size_t wave = wave_at(candidate.x - tile_x_ * tile_size_, candidate.y - tile_y_ * tile_size_);
-        scratch_.candidates.add(candidate, uint32_t(wave), lanes, covered & lanes);
+        scratch_.candidates.add(candidate, uint32_t(wave_of(candidate)), lanes, covered & lanes);
     }
 
     void tell_judged(const raster::CandidateWave& candidate, WaveMask covered, uint32_t sample) {
@@ -223,7 +246,7 @@ class TileRenderer {
                 wave_.y = tile_y_ * tile_size_ + y;
                 wave_.index = wave_at(x, y);
                 wave_.inside = lanes_inside(inputs_.visible, wave_.x, wave_.y);
-                if (wave_.inside == 0) continue;
+                if (wave_.inside == 0 || !takes_samples(wave_.index)) continue;
                 shade_wave(x, y);
             }
         }
@@ -422,7 +445,8 @@ class TileRenderer {
             radiance_ = surface_.base_color;
         } else {
             turn_to_viewer();
-            shade_lanes(*inputs_.lighting, surface_, lanes, radiance_, inputs_.shadow_taps == ShadowTaps::One ? &light_numbers_ : nullptr);
+            shade_lanes(*inputs_.lighting, surface_, lanes, radiance_, inputs_.shadow_taps == ShadowTaps::One ? &light_numbers_ : nullptr,
+                        inputs_.skip_zero_weights);
         }
     }
 

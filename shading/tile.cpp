@@ -49,6 +49,7 @@ TileScratch::TileScratch(const TileInputs& inputs)
         shifts.resize(pixels);
         offsets.resize(pixels);
     }
+    if (inputs.adaptive_error > 0) adaptive.emplace(inputs.frame->options().tile_size, inputs.planes.count, inputs.adaptive_error);
     sample.resize(size_t(inputs.planes.count) * waves);
     first_sample.resize(size_t(inputs.planes.first_sample_count) * waves);
 }

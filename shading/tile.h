@@ -4,6 +4,7 @@
 #include "raster/frame.h"
 #include "raster/visibility.h"
 #include "shading/accumulation.h"
+#include "shading/adaptive_blocks.h"
 #include "shading/candidate_log.h"
 #include "shading/draw_state.h"
 #include "shading/fetch_options.h"
@@ -31,6 +32,7 @@ struct TileInputs {
     PixelRect visible;  ///< nothing outside is shaded, tested for coverage or counted
     uint32_t first_sample = 0;
     int spp = 1;
+    double adaptive_error = 0;  ///< 0: every pixel takes all samples
     PixelFilter pixel_filter = PixelFilter::Box;
     PixelJitter pixel_jitter = PixelJitter::Frame;
     uint32_t seed = 0;
@@ -41,6 +43,7 @@ struct TileInputs {
     TextureJitter texture_jitter = TextureJitter::None;
     texunit::Noise noise = texunit::Noise::White;  ///< of the numbers of both
     FetchModel fetch_model = FetchModel::Visible;  ///< of what listeners hear
+    bool skip_zero_weights = true;                 ///< of light that does not arrive
     bool skip_empty_tiles = true;                  ///< look for nothing where the bin holds nothing
 };
 
@@ -64,6 +67,7 @@ struct TileScratch {
     std::vector<texunit::WaveFloat> sample;
     std::vector<texunit::WaveFloat> first_sample;  ///< planes that show the first sample alone
     SampleTree sums;
+    std::optional<AdaptiveBlocks> adaptive;         ///< what has stopped holds nothing of meaning in `sums`
     LookupListener* listener = nullptr;             ///< hears of the tile's lookups; null: nobody does
     FragmentListener* fragment_listener = nullptr;  ///< likewise of its fragments
     CandidateLog candidates;                        ///< of the sample at hand, for the listener

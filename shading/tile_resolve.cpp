@@ -53,45 +53,58 @@ void TileResolver::begin(int tile_x, int tile_y) {
 
 void TileResolver::resolve_radiance(int tile_x, int tile_y, const SampleTree& sums, RenderResult& result) {
     begin(tile_x, tile_y);
-    put_means(sums, TilePlanes::kRadiance, result.radiance);
+    sums.mean(size_t(TilePlanes::kRadiance) * pixels_, values(result.radiance.channels));
+    put(result.radiance);
 }
 
 void TileResolver::resolve(int tile_x, int tile_y, const TileScratch& tile, std::span<const Aov> aovs, RenderResult& result) {
     begin(tile_x, tile_y);
-    put_means(tile.sums, TilePlanes::kRadiance, result.radiance);
+    put_means(tile, TilePlanes::kRadiance, result.radiance);
     for (size_t i = 0; i < result.layers.size(); ++i) resolve_layer(aovs[i], tile, result.layers[i].image);
-    if (result.coverage.width > 0) put_means(tile.sums, inputs_.planes.hits, result.coverage);
+    if (result.coverage.width > 0) put_means(tile, inputs_.planes.hits, result.coverage);
+    if (result.sample_counts.width > 0) put_sample_counts(tile, result.sample_counts);
 }
 
 void TileResolver::resolve_layer(Aov aov, const TileScratch& tile, Image& image) {
     const TilePlanes& planes = inputs_.planes;
     switch (aov) {
-        case Aov::Depth: return put_surface_means(tile.sums, planes.depth, image);
-        case Aov::Normal: return put_surface_means(tile.sums, planes.normal, image);
-        case Aov::Albedo: return put_surface_means(tile.sums, planes.albedo, image);
-        case Aov::Uv: return put_surface_means(tile.sums, planes.uv, image);
+        case Aov::Depth: return put_surface_means(tile, planes.depth, image);
+        case Aov::Normal: return put_surface_means(tile, planes.normal, image);
+        case Aov::Albedo: return put_surface_means(tile, planes.albedo, image);
+        case Aov::Uv: return put_surface_means(tile, planes.uv, image);
         case Aov::Texels:
         case Aov::Lines: return;  // the frame's account of fetches has them
         case Aov::Lod: return put_first_sample(tile, planes.lod, image);
         case Aov::Material: return put_first_sample(tile, planes.material, image);
-        case Aov::Spp: break;
+        case Aov::Spp: return put_sample_counts(tile, image);
     }
-    std::fill(values_.begin(), values_.end(), float(tile.sums.samples()));
+}
+
+void TileResolver::put_means(const TileScratch& tile, int first_plane, Image& image) {
+    const size_t first = size_t(first_plane) * pixels_;
+    tile.sums.mean(first, values(image.channels));
+    if (tile.adaptive) tile.adaptive->put_means(first, values(image.channels));
     put(image);
 }
 
-void TileResolver::put_means(const SampleTree& sums, int first_plane, Image& image) {
-    sums.mean(size_t(first_plane) * pixels_, values(image.channels));
-    put(image);
-}
-
-void TileResolver::put_surface_means(const SampleTree& sums, int first_plane, Image& image) {
-    sums.sum(size_t(inputs_.planes.hits) * pixels_, hits_);
+void TileResolver::put_surface_means(const TileScratch& tile, int first_plane, Image& image) {
+    const auto find_sums = [&](int plane, std::vector<double>& sums) {
+        const size_t first = size_t(plane) * pixels_;
+        tile.sums.sum(first, sums);
+        if (tile.adaptive) tile.adaptive->put_sums(first, sums);
+    };
+    find_sums(inputs_.planes.hits, hits_);
     for (int channel = 0; channel < image.channels; ++channel) {
-        sums.sum(size_t(first_plane + channel) * pixels_, sums_);
+        find_sums(first_plane + channel, sums_);
         float* value = &values_[size_t(channel) * pixels_];
         for (size_t i = 0; i < pixels_; ++i) value[i] = hits_[i] > 0.0 ? float(sums_[i] / hits_[i]) : 0.0f;
     }
+    put(image);
+}
+
+void TileResolver::put_sample_counts(const TileScratch& tile, Image& image) {
+    std::fill_n(values_.begin(), pixels_, float(tile.sums.samples()));
+    if (tile.adaptive) tile.adaptive->put_counts(values(1));
     put(image);
 }
 

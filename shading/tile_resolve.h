@@ -27,8 +27,9 @@ class TileResolver {
     void begin(int tile_x, int tile_y);
     void resolve_layer(Aov aov, const TileScratch& tile, Image& image);
     /// Means over samples, or over the samples that saw a surface.
-    void put_means(const SampleTree& sums, int first_plane, Image& image);
-    void put_surface_means(const SampleTree& sums, int first_plane, Image& image);
+    void put_means(const TileScratch& tile, int first_plane, Image& image);
+    void put_surface_means(const TileScratch& tile, int first_plane, Image& image);
+    void put_sample_counts(const TileScratch& tile, Image& image);
     void put_first_sample(const TileScratch& tile, int plane, Image& image);
     std::span<float> values(int channels) { return std::span(values_).first(size_t(channels) * pixels_); }
     /// values_ to the image, a plane per channel.

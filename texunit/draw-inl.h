@@ -60,23 +60,35 @@ HWY_NOINLINE inline void draw_signed_texels(const DrawnLookup& lookup, const Ker
     if (taps.volume) draw.border |= draw_of_axis(taps.z, OfOneSign(taps.sums_z, signs.negative_z), numbers.z, draw.slice);
 }
 
-/// Axis by axis, without a list of taps: by a jittered coordinate, or from the weights of few taps.
-HWY_INLINE void draw_listless_texels(const DrawnLookup& lookup, const Kernel& kernel, const DrawnPlace& place, const DrawNumbers& numbers,
-                                     TexelDraw& draw) {
+/// Without lists of taps: by jittered coordinates, or from the weights of few taps.
+template <class Place>
+HWY_INLINE void draw_places(const DrawnLookup& lookup, const Place& how, const DrawnPlace& place, const DrawNumbers& numbers,
+                            TexelDraw& draw) {
     const LevelTable& table = *lookup.levels;
     const SamplerState& sampler = *lookup.sampler;
-    const WavePosition& at = place.position;
-    const auto axis = [&](EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents, const WaveFloat* rest,
-                          const WaveFloat& number, WaveInt& texel) HWY_ATTR {
-        const CoordinateReading reading{sampler.precision, rest};
-        const auto by = [&](const auto& how)
-                            HWY_ATTR { return draw_placed(how, rule, coordinate, extents, place.level, reading, number, texel); };
-        if (sampler.estimator == Estimator::Jitter) return by(JitteredPlace{kernel});
-        return kernel.kind == KernelKind::BSpline ? by(BSplinePlace{kernel}) : by(WeighedPlace{kernel});
-    };
-    draw.border = axis(rule_of(at, sampler.wrap_s), *at.u, table.width, at.u_rest, numbers.x, draw.x);
-    draw.border |= axis(rule_of(at, sampler.wrap_t), *at.v, table.height, at.v_rest, numbers.y, draw.y);
-    if (at.w != nullptr) draw.border |= axis(edge_rule(sampler.wrap_r), *at.w, table.depth, nullptr, numbers.z, draw.slice);
+    const WavePosition& at = *place.position;
+    const auto by_rule = [&](EdgeRule rule, const auto& axes)
+                             HWY_ATTR { return draw_placed(how, rule, axes, place.level, sampler.precision); };
+    const DrawnAxis x{at.u, at.u_rest, &table.width, &numbers.x, &draw.x}, y{at.v, at.v_rest, &table.height, &numbers.y, &draw.y};
+    const EdgeRule rule_x = cheapest_rule(rule_of(at, sampler.wrap_s), table.width);
+    const EdgeRule rule_y = cheapest_rule(rule_of(at, sampler.wrap_t), table.height);
+    if (rule_x == rule_y) {
+        const DrawnAxis both[] = {x, y};
+        draw.border = by_rule(rule_x, both);
+    } else {
+        const DrawnAxis only_x[] = {x}, only_y[] = {y};
+        draw.border = by_rule(rule_x, only_x) | by_rule(rule_y, only_y);
+    }
+    if (at.w == nullptr) return;
+    const DrawnAxis z[] = {{at.w, nullptr, &table.depth, &numbers.z, &draw.slice}};
+    draw.border |= by_rule(cheapest_rule(edge_rule(sampler.wrap_r), table.depth), z);
+}
+
+HWY_INLINE void draw_listless_texels(const DrawnLookup& lookup, const Kernel& kernel, const DrawnPlace& place, const DrawNumbers& numbers,
+                                     TexelDraw& draw) {
+    if (lookup.sampler->estimator == Estimator::Jitter) return draw_places(lookup, JitteredPlace{kernel}, place, numbers, draw);
+    if (kernel.kind == KernelKind::BSpline) return draw_places(lookup, BSplinePlace{kernel}, place, numbers, draw);
+    draw_places(lookup, WeighedPlace{kernel}, place, numbers, draw);
 }
 
 /// A texel of `kernel` for every lane; indices of cube maps may lie beyond the face.
@@ -95,12 +107,12 @@ HWY_INLINE void draw_indices(const DrawnLookup& lookup, const Kernel& kernel, co
 
 /// The texels of a cube map that drawn indices mean: of another face beyond an edge, and beyond a corner one of the three that meet there,
 /// each with a third of the numbers.
-HWY_NOINLINE inline void fold_drawn_cube(const LevelTable& table, const DrawnPlace& place, const WaveFloat& number, TexelDraw& draw) {
+HWY_NOINLINE inline void fold_drawn_cube(const DrawnLookup& lookup, const DrawnPlace& place, const WaveFloat& number, TexelDraw& draw) {
     const FloatTag d;
     const IntTag di;
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto extent = look_up_level(di, table.width, hn::Load(di, place.level.lane + i));
-        const auto tap = resolve_cube_tap(hn::Load(di, place.position.slice->lane + i), hn::Load(di, draw.x.lane + i),
+        const auto extent = look_up_level(di, lookup.levels->width, hn::Load(di, place.level.lane + i));
+        const auto tap = resolve_cube_tap(hn::Load(di, lookup.position.slice->lane + i), hn::Load(di, draw.x.lane + i),
                                           hn::Load(di, draw.y.lane + i), extent);
         const auto third = hn::Mul(hn::Load(d, number.lane + i), hn::Set(d, 3.0f));
         const auto second = hn::RebindMask(di, third >= hn::Set(d, 1.0f)), last = hn::RebindMask(di, third >= hn::Set(d, 2.0f));
@@ -116,7 +128,7 @@ HWY_NOINLINE inline void fold_drawn_cube(const LevelTable& table, const DrawnPla
 HWY_INLINE void draw_texels(const DrawnLookup& lookup, const Kernel& kernel, const DrawnPlace& place, const DrawNumbers& numbers,
                             Lobes lobes, const LobeMass& mass, TexelDraw& draw) {
     draw_indices(lookup, kernel, place, numbers, lobes, mass, draw);
-    if (place.position.cube()) fold_drawn_cube(*lookup.levels, place, numbers.z, draw);
+    if (lookup.position.cube()) fold_drawn_cube(lookup, place, numbers.z, draw);
 }
 
 /// Draws for all lanes, of which those outside `mask` repeat an active one. Of flat lookups `draw.slice` is the caller's.
@@ -133,9 +145,8 @@ HWY_NOINLINE inline void draw_lanes(const DrawnLookup& lookup, WaveMask mask, co
         }
         return repeat_first_draw(mask, draw);
     }
-    DrawnPlace place;
+    DrawnPlace place(lookup, draw.level);
     draw_place(lookup, numbers, place);
-    draw.level = place.level;
     const WaveMask magnified = place.choice.magnify & mask;
     const bool one_kernel = sampler.magnify == sampler.minify || magnified == 0 || magnified == mask;
     const Kernel& most = magnified == mask ? sampler.magnify : sampler.minify;
@@ -152,17 +163,29 @@ HWY_NOINLINE inline void draw_lanes(const DrawnLookup& lookup, WaveMask mask, co
     }
 }
 
+/// Texels of other slices than the first, and those of a border.
 template <StorageClass storage>
-HWY_INLINE void read_drawn(Texture& texture, const SamplerState& sampler, const TexelDraw& draw, WaveColor& out) {
+HWY_NOINLINE void read_drawn_edges(Texture& texture, const SamplerState& sampler, const TexelDraw& draw, const WaveInt* slice,
+                                   WaveColor& out) {
     TapWave<1> tap;
     tap.level = &draw.level;
-    tap.slice = texture.shape().layers > 1 || texture.shape().depth > 1 ? &draw.slice : nullptr;
+    tap.slice = slice;
     tap.x[0] = draw.x, tap.y[0] = draw.y;
     tap.leaves = draw.border != 0;
     tap.outside_x[0] = tap.outside_y[0] = draw.border;
     TexelWave<1> texels;
     fetch<storage>(texture, sampler.border, false, tap, texels);
     for (int c = 0; c < 4; ++c) out.channel[c] = texels.channel[c][0];
+}
+
+template <StorageClass storage>
+HWY_INLINE void read_drawn(Texture& texture, const SamplerState& sampler, const TexelDraw& draw, WaveColor& out) {
+    const bool is_flat = texture.shape().layers == 1 && texture.shape().depth == 1;
+    if (!is_flat || draw.border != 0) return read_drawn_edges<storage>(texture, sampler, draw, is_flat ? nullptr : &draw.slice, out);
+    WaveInt index[1];
+    texel_indices<storage>(texture.levels(), draw.level, nullptr, draw.x, draw.y, index[0]);
+    ensure(texture, draw.level, index);
+    gather<storage>(texture, index, channels_of(out));
 }
 
 HWY_INLINE void read_drawn_lanes(Texture& texture, const SamplerState& sampler, const TexelDraw& draw, WaveColor& out) {

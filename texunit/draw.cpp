@@ -23,13 +23,14 @@ struct TexelDimensions {
 constexpr TexelDimensions kPositive{Dimension::TapX, Dimension::TapY, Dimension::Sign};
 constexpr TexelDimensions kNegative{Dimension::NegativeX, Dimension::NegativeY, Dimension::NegativeSign};
 
-void hash_numbers(const RandomAddress& first, bool negative, const NumberRoles& roles, DrawNumbers& numbers) {
+void hash_numbers(const RandomAddress& first, bool negative, const NumberRoles& roles, RandomStates& states, DrawNumbers& numbers) {
     const TexelDimensions& texel = negative ? kNegative : kPositive;
-    white_lanes(first, texel.x, numbers.x);
-    white_lanes(first, texel.y, numbers.y);
-    if (roles.sign) white_lanes(first, texel.sign, numbers.sign);
-    if (roles.level) white_lanes(first, Dimension::Level, numbers.level);
-    if (roles.probe) white_lanes(first, Dimension::Probe, numbers.probe);
+    const auto hash = [&](Dimension dimension, WaveFloat& to) HWY_ATTR { random_wave(states.of(first, dimension), first.x, first.y, to); };
+    hash(texel.x, numbers.x);
+    hash(texel.y, numbers.y);
+    if (roles.sign) hash(texel.sign, numbers.sign);
+    if (roles.level) hash(Dimension::Level, numbers.level);
+    if (roles.probe) hash(Dimension::Probe, numbers.probe);
 }
 
 void find_noise(Noise noise, const RandomAddress& first, bool negative, const NumberRoles& roles, DrawNumbers& numbers) {
@@ -46,8 +47,8 @@ void find_noise(Noise noise, const RandomAddress& first, bool negative, const Nu
 }
 
 /// Coordinates whose inactive lanes repeat an active one, and the layers.
-const WaveCoordinates& prepare(const Texture& texture, const WaveCoordinates& at, WaveMask mask, const WaveFloat* layer,
-                               WaveCoordinates& filled, WaveInt& slice) {
+HWY_INLINE const WaveCoordinates& prepare(const Texture& texture, const WaveCoordinates& at, WaveMask mask, const WaveFloat* layer,
+                                          WaveCoordinates& filled, WaveInt& slice) {
     if (layer != nullptr) {
         select_layers(*layer, mask, texture.shape().layers, slice);
     } else {
@@ -58,8 +59,8 @@ const WaveCoordinates& prepare(const Texture& texture, const WaveCoordinates& at
     return filled;
 }
 
-void draw(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
-          TexelDraw& drawn, const WaveFloat* layer) {
+HWY_INLINE void draw(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
+                     TexelDraw& drawn, const WaveFloat* layer) {
     WaveCoordinates filled;
     const WaveCoordinates& coordinates = prepare(texture, at, mask, layer, filled, drawn.slice);
     draw_lanes(flat_lookup(texture.levels(), sampler, coordinates), mask, numbers, Lobes::Positive, {}, drawn);
@@ -136,13 +137,29 @@ NumberRoles roles_of(const SamplerState& sampler) {
     return {.level = ellipse || sampler.mip == MipMode::Linear, .probe = ellipse || !sampler.is_isotropic(), .sign = ellipse || !one_sign};
 }
 
+namespace {
+
+void find_numbers(const RandomAddress& first, bool negative, Noise noise, const NumberRoles& roles, RandomStates& states,
+                  DrawNumbers& numbers) {
+    if (noise == Noise::White) return HWY_DYNAMIC_DISPATCH(hash_numbers)(first, negative, roles, states, numbers);
+    HWY_DYNAMIC_DISPATCH(find_noise)(noise, first, negative, roles, numbers);
+}
+
+}  // namespace
+
 void draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise, const NumberRoles& roles) {
-    if (noise == Noise::White) return HWY_DYNAMIC_DISPATCH(hash_numbers)(first, false, roles, numbers);
-    HWY_DYNAMIC_DISPATCH(find_noise)(noise, first, false, roles, numbers);
+    RandomStates states;
+    find_numbers(first, false, noise, roles, states, numbers);
+}
+void draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise, const NumberRoles& roles, RandomStates& states) {
+    find_numbers(first, false, noise, roles, states, numbers);
 }
 void negative_draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise, const NumberRoles& roles) {
-    if (noise == Noise::White) return HWY_DYNAMIC_DISPATCH(hash_numbers)(first, true, roles, numbers);
-    HWY_DYNAMIC_DISPATCH(find_noise)(noise, first, true, roles, numbers);
+    RandomStates states;
+    find_numbers(first, true, noise, roles, states, numbers);
+}
+void negative_draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise, const NumberRoles& roles, RandomStates& states) {
+    find_numbers(first, true, noise, roles, states, numbers);
 }
 
 namespace {

@@ -127,27 +127,36 @@ HWY_INLINE V drawn_texel(V index, V extent, bool near) {
     return hn::Max(hn::Min(fold_period<rule>(wrap_period(index, period), period), hn::Sub(extent, hn::Set(d, 1))), hn::Zero(d));
 }
 
-/// A texel along one axis without a list of taps: place(remainder, number) is where it lies from the coordinate's integer part. Of a cube
-/// map it may lie beyond the face. Returns the lanes whose texel is beyond an edge.
-template <EdgeRule rule, class Place>
-HWY_NOINLINE WaveMask draw_placed_as(const Kernel& kernel, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
-                                     const WaveInt& level, const CoordinateReading& reading, const WaveFloat& number, const Place& place,
-                                     WaveInt& drawn) {
+/// An axis along which a texel is drawn.
+struct DrawnAxis {
+    const WaveFloat* coordinate;
+    const WaveFloat* rest;  ///< of cube maps
+    const std::array<int32_t, 16>* extents;
+    const WaveFloat* number;
+    WaveInt* drawn;  ///< gets the texels, which of a cube map may lie beyond the face
+};
+
+/// Texels along axes of one rule without lists of taps: place(remainder, number) is where one lies from the coordinate's integer part.
+/// Returns the lanes whose texel is beyond an edge.
+template <EdgeRule rule, class Place, size_t axes>
+HWY_NOINLINE WaveMask draw_placed_as(const DrawnAxis (&axis)[axes], const WaveInt& level, Precision precision, const Place& place) {
     const FloatTag d;
     const IntTag di;
-    const bool near = has_fixed_weights(kernel);
+    const bool near = has_fixed_weights(place.kernel);
     WaveMask border = 0;
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto extent = look_up_level(di, extents, hn::Load(di, level.lane + i));
-        hn::Vec<FloatTag> integer, remainder;
-        locate<rule>(coordinate, reading, hn::ConvertTo(d, extent), i, integer, remainder);
-        auto index = small_to_int(hn::Add(integer, place(remainder, hn::Load(d, number.lane + i))));
-        if constexpr (rule == EdgeRule::CubeEdge) {
-            // One texel never leaves the face: a coordinate of 1 belongs to the last.
-            if (kernel.kind == KernelKind::Nearest) index = limit_index<EdgeRule::ClampToEdge>(index, extent);
+        for (const DrawnAxis& of : axis) {
+            const auto extent = look_up_level(di, *of.extents, hn::Load(di, level.lane + i));
+            hn::Vec<FloatTag> integer, remainder;
+            locate<rule>(*of.coordinate, {precision, of.rest}, hn::ConvertTo(d, extent), i, integer, remainder);
+            auto index = small_to_int(hn::Add(integer, place(remainder, hn::Load(d, of.number->lane + i))));
+            if constexpr (rule == EdgeRule::CubeEdge) {
+                // One texel never leaves the face: a coordinate of 1 belongs to the last.
+                if (place.kernel.kind == KernelKind::Nearest) index = limit_index<EdgeRule::ClampToEdge>(index, extent);
+            }
+            hn::Store(drawn_texel<rule>(index, extent, near), di, of.drawn->lane + i);
+            if constexpr (can_leave(rule)) border |= wave_mask(di, beyond_edges(index, extent), i);
         }
-        hn::Store(drawn_texel<rule>(index, extent, near), di, drawn.lane + i);
-        if constexpr (can_leave(rule)) border |= wave_mask(di, beyond_edges(index, extent), i);
     }
     return border;
 }
@@ -183,32 +192,31 @@ struct WeighedPlace {
 };
 
 /// The same of the cubic B-spline, whose weights sum to polynomials of the coordinate's place f between two centres: (1-f)^3/6, then
-/// 5/6 - f/2 - f^2/2 + f^3/3, then 1 - f^3/6; each to 2^-23.
+/// 5/6 - f/2 - f^2/2 + f^3/3, then 1 - f^3/6; each to 2^-23. Rounding may take f a little out of [0, 1], which harms none of them.
 struct BSplinePlace {
     const Kernel& kernel;
     HWY_INLINE FloatVec operator()(FloatVec remainder, FloatVec number) const {
         const FloatTag d;
         const auto set = [&](float value) HWY_ATTR { return hn::Set(d, value); };
-        const auto one = set(1.0f), half = set(0.5f);
-        const auto f = hn::Min(hn::Max(hn::Add(remainder, half), hn::Zero(d)), set(1 - 0x1p-24f)), rest = hn::Sub(one, f);
-        const auto cube = hn::Mul(hn::Mul(rest, rest), hn::Mul(rest, set(1.0f / 6)));
-        // On a centre f may be the largest below 1 instead of 0: then the first texel weighs nothing, and no number draws it.
-        const auto first = hn::IfThenElseZero(cube >= set(kLeastWeight), cube);
-        const auto square = fused_multiply_add(f, fused_multiply_add(f, set(1.0f / 3), set(-0.5f)), set(-0.5f));
-        const auto second = fused_multiply_add(f, square, set(5.0f / 6));
-        const auto third = fused_negative_multiply_add(hn::Mul(f, f), hn::Mul(f, set(1.0f / 6)), one);
+        const auto one = set(1.0f), half = set(0.5f), sixth = set(1.0f / 6);
+        const auto f = hn::Add(remainder, half), rest = hn::Sub(one, f);
+        const auto square = hn::Mul(f, f);
+        // On a centre f may be the largest below 1: then the first texel weighs less than kLeastWeight, and no number draws it.
+        const auto first = fused_multiply_add(hn::Mul(rest, rest), hn::Mul(rest, sixth), set(-kLeastWeight));
+        const auto second = fused_multiply_add(square, fused_multiply_add(f, set(1.0f / 3), hn::Neg(half)),
+                                               fused_multiply_add(f, hn::Neg(half), set(5.0f / 6)));
+        const auto third = fused_negative_multiply_add(square, hn::Mul(f, sixth), one);
         auto texel = set(-2.0f);
         for (const auto& before : {first, second, third}) texel = hn::IfThenElse(number >= before, hn::Add(texel, one), texel);
         return texel;
     }
 };
 
-template <class Place>
-HWY_INLINE WaveMask draw_placed(const Place& place, EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
-                                const WaveInt& level, const CoordinateReading& reading, const WaveFloat& number, WaveInt& drawn) {
-    return with_rule(rule, extents, [&](auto constant) HWY_ATTR {
-        return draw_placed_as<decltype(constant)::value>(place.kernel, coordinate, extents, level, reading, number, place, drawn);
-    });
+template <class Place, size_t axes>
+HWY_INLINE WaveMask draw_placed(const Place& place, EdgeRule rule, const DrawnAxis (&axis)[axes], const WaveInt& level,
+                                Precision precision) {
+    return with_rule(rule,
+                     [&](auto constant) HWY_ATTR { return draw_placed_as<decltype(constant)::value>(axis, level, precision, place); });
 }
 
 }  // namespace HWY_NAMESPACE

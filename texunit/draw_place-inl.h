@@ -119,22 +119,26 @@ HWY_INLINE DrawnLookup cube_lookup(const LevelTable& levels, const SamplerState&
 
 /// Where and in which level each lane draws its texel.
 struct DrawnPlace {
-    LevelChoice choice;
-    WaveFloat u, v;
-    WavePosition position;
-    WaveInt level;
+    DrawnPlace(const DrawnLookup& lookup, WaveInt& drawn_level) : position(&lookup.position), level(drawn_level) {}
+
+    LevelChoice choice;            ///< beside `mixes` and `magnify` set only where there is a choice
+    const WavePosition* position;  ///< the lookup's own, or that of its probes
+    WaveInt& level;
+    WaveFloat probe_u, probe_v;
+    WavePosition of_probes;
 };
 
-/// All lanes of the lookup's coordinates are active or repeat one that is.
-HWY_NOINLINE inline void draw_place(const DrawnLookup& lookup, const DrawNumbers& numbers, DrawnPlace& place) {
+/// The level and the probe, where there is a choice.
+HWY_NOINLINE inline void choose_place(const DrawnLookup& lookup, const DrawNumbers& numbers, DrawnPlace& place) {
     const SamplerState& sampler = *lookup.sampler;
-    place.position = lookup.position;
     if (!sampler.is_isotropic()) {
         ProbeChoice probes;
         select_footprint(*lookup.levels, sampler, *lookup.at, place.choice, probes);
         if (probes.most > 1) {
-            move_to_probes(sampler, probes, *lookup.at, numbers.probe, place.u, place.v);
-            place.position.u = &place.u, place.position.v = &place.v;
+            move_to_probes(sampler, probes, *lookup.at, numbers.probe, place.probe_u, place.probe_v);
+            place.of_probes = lookup.position;
+            place.of_probes.u = &place.probe_u, place.of_probes.v = &place.probe_v;
+            place.position = &place.of_probes;
         }
     } else {
         choose_levels(*lookup.levels, sampler, *lookup.at, place.choice, nullptr);
@@ -144,6 +148,13 @@ HWY_NOINLINE inline void draw_place(const DrawnLookup& lookup, const DrawNumbers
         return;
     }
     draw_levels(place.choice, numbers.level, place.level);
+}
+
+/// All lanes of the lookup's coordinates are active or repeat one that is.
+HWY_INLINE void draw_place(const DrawnLookup& lookup, const DrawNumbers& numbers, DrawnPlace& place) {
+    if (!lookup.sampler->is_isotropic() || !needs_no_level(*lookup.sampler, nullptr)) return choose_place(lookup, numbers, place);
+    place.level = {};
+    place.choice.magnify = kWaveFull, place.choice.mixes = false;
 }
 
 }  // namespace HWY_NAMESPACE

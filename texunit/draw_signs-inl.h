@@ -41,7 +41,7 @@ struct TextureTaps {
 HWY_INLINE void select_axes(const DrawnLookup& lookup, const Kernel& kernel, const DrawnPlace& place, TextureTaps& taps) {
     const LevelTable& table = *lookup.levels;
     const SamplerState& sampler = *lookup.sampler;
-    const WavePosition& at = place.position;
+    const WavePosition& at = *place.position;
     taps.volume = at.w != nullptr;
     const auto axis = [&](EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents, const WaveFloat* rest,
                           AxisTaps& to) HWY_ATTR {

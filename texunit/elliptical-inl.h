@@ -214,18 +214,10 @@ HWY_INLINE void set_border(const std::array<float, 4>& border, WaveMask mask, Te
 /// Ensures and gathers the chunk's texels.
 template <StorageClass storage>
 HWY_INLINE void fetch_chunk(Texture& texture, const EllipseChunk& chunk, TexelWave<1>& texels) {
-    const IntTag d;
-    const LevelTable& table = texture.levels();
     WaveInt index[1];
-    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const auto level = hn::Load(d, chunk.level.lane + i);
-        const auto slice = hn::Mul(hn::Load(d, chunk.slice.lane + i), look_up_level(d, table.slice_stride, level));
-        const auto column = hn::Add(look_up_level(d, table.offset, level), column_offset_v<storage>(hn::Load(d, chunk.x.lane + i)));
-        const auto row = row_offset_v<storage>(hn::Load(d, chunk.y.lane + i), look_up_level(d, table.row_stride, level));
-        hn::Store(hn::Add(hn::Add(column, row), slice), d, index[0].lane + i);
-    }
+    texel_indices<storage>(texture.levels(), chunk.level, &chunk.slice, chunk.x, chunk.y, index[0]);
     ensure(texture, chunk.level, index);
-    gather<storage>(texture, index, texels);
+    gather<storage>(texture, index, channels_of(texels));
 }
 
 /// Tells the sink of a chunk's taps, one a call: they are all of one pixel, `lane`. `total` is the sum of the ellipse's weights.

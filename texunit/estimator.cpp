@@ -12,16 +12,6 @@ constexpr EstimatorInfo kEstimators[] = {
     {Estimator::AbsWeight, "abs-weight", "one tap drawn by the magnitude of its weight: for comparison, noisy even on a constant"},
 };
 
-/// Whether Mitchell's kernel is nowhere negative. Between 1 and 2 it is s^2*((B/6 + C)*s - C), s = 2 - |x|; within 1 a cubic in |x| whose
-/// least value lies at an end or where its derivative is 0.
-bool is_nonnegative(double b, double c) {
-    if (c > 0 || b < 0 || b > 3) return false;
-    const double square = 2 * b + c - 3, cube = 2 - 1.5 * b - c;
-    const double lowest = -2 * square / (3 * cube);
-    if (!(lowest > 0 && lowest < 1)) return true;
-    return 1 - b / 3 + square * lowest * lowest / 3 >= 0;
-}
-
 /// Whether Mitchell's kernel is a density convolved with the texel's box: its offsets' density is nonnegative where it is least.
 bool is_box_convolved(double b, double c) { return c <= 0 && b + 2 * c >= 0 && 3 * b + 2 * c <= 6; }
 
@@ -37,14 +27,14 @@ std::optional<Estimator> parse_estimator(std::string_view text) {
     return found->estimator;
 }
 
-bool weighs_as_probability(const Kernel& kernel) {
-    switch (kernel.kind) {
-        case KernelKind::Mitchell: return is_nonnegative(double(kernel.b), double(kernel.c));
-        case KernelKind::CatmullRom:
-        case KernelKind::Lanczos2:
-        case KernelKind::Lanczos3: return false;
-        default: return true;
-    }
+// Between 1 and 2 it is s^2*((B/6 + C)*s - C), s = 2 - |x|; within 1 a cubic in |x| whose
+// least value lies at an end or where its derivative is 0.
+bool is_nonnegative_cubic(double b, double c) {
+    if (c > 0 || b < 0 || b > 3) return false;
+    const double square = 2 * b + c - 3, cube = 2 - 1.5 * b - c;
+    const double lowest = -2 * square / (3 * cube);
+    if (!(lowest > 0 && lowest < 1)) return true;
+    return 1 - b / 3 + square * lowest * lowest / 3 >= 0;
 }
 
 std::string_view refusal(Estimator estimator, const Kernel& kernel) {

@@ -27,8 +27,19 @@ std::span<const EstimatorInfo> all_estimators();
 std::string_view to_string(Estimator estimator);  // all reservoir jitter abs-weight
 std::optional<Estimator> parse_estimator(std::string_view text);
 
+/// Whether Mitchell's cubic of these parameters is nowhere negative.
+bool is_nonnegative_cubic(double b, double c);
+
 /// Whether all weights of the kernel are probabilities. Others need two draws, one for either sign.
-bool weighs_as_probability(const Kernel& kernel);
+inline bool weighs_as_probability(const Kernel& kernel) {
+    switch (kernel.kind) {
+        case KernelKind::Mitchell: return is_nonnegative_cubic(double(kernel.b), double(kernel.c));
+        case KernelKind::CatmullRom:
+        case KernelKind::Lanczos2:
+        case KernelKind::Lanczos3: return false;
+        default: return true;
+    }
+}
 
 /// Why the estimator cannot draw the kernel, as a clause for people; empty where it can. Only `jitter` refuses: it reaches the kernels k
 /// that are a probability density q convolved with the texel's box: nearest, bilinear, quadratic, bspline, gaussian, and those mitchell:B,C

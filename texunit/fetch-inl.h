@@ -24,6 +24,17 @@ struct TexelWave {
     WaveFloat channel[4][n];
 };
 
+/// Where the channels of texels go: tap t of channel c to [c][t].
+using ChannelPointers = std::array<WaveFloat*, 4>;
+template <int n>
+HWY_INLINE ChannelPointers channels_of(TexelWave<n>& texels) {
+    return {texels.channel[0], texels.channel[1], texels.channel[2], texels.channel[3]};
+}
+/// Of one texel a lane.
+HWY_INLINE ChannelPointers channels_of(WaveColor& colour) {
+    return {&colour.channel[0], &colour.channel[1], &colour.channel[2], &colour.channel[3]};
+}
+
 /// Index of the first texel of lanes i .. 's slice and level (texunit/level_table.h). `slice` null: slice 0.
 HWY_INLINE hn::Vec<IntTag> slice_offset(const LevelTable& table, hn::Vec<IntTag> level, const WaveInt* slice, size_t i) {
     const IntTag d;
@@ -46,6 +57,19 @@ HWY_INLINE void tap_indices(const LevelTable& table, const TapWave<W>& taps, Wav
             const auto row = row_offset_v<storage>(hn::Load(d, taps.y[j].lane + i), row_stride);
             for (int k = 0; k < W; ++k) hn::Store(hn::Add(columns[k], row), d, index[j * W + k].lane + i);
         }
+    }
+}
+
+/// Index of one texel a lane. `slice` null: slice 0.
+template <StorageClass storage>
+HWY_INLINE void texel_indices(const LevelTable& table, const WaveInt& levels, const WaveInt* slice, const WaveInt& x, const WaveInt& y,
+                              WaveInt& index) {
+    const IntTag d;
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+        const auto level = hn::Load(d, levels.lane + i);
+        const auto column = hn::Add(slice_offset(table, level, slice, i), column_offset_v<storage>(hn::Load(d, x.lane + i)));
+        const auto row = row_offset_v<storage>(hn::Load(d, y.lane + i), look_up_level(d, table.row_stride, level));
+        hn::Store(hn::Add(column, row), d, index.lane + i);
     }
 }
 
@@ -94,6 +118,24 @@ HWY_INLINE uint64_t blocks_touched(const WaveInt (&index)[n], int first, int32_t
     return uint64_t{or_of_lanes(high)} << 32 | or_of_lanes(low);
 }
 
+/// Whether a tap from `first` on touches one of the blocks `missing` of `group`: the question that is asked most, and without a reduction.
+template <int n>
+HWY_INLINE bool touches_blocks(const WaveInt (&index)[n], int first, int32_t group, uint64_t missing) {
+    const IntTag d;
+    const auto low = hn::Set(d, int32_t(uint32_t(missing))), high = hn::Set(d, int32_t(missing >> 32)), half = hn::Set(d, 32);
+    auto touched = hn::Zero(d);
+    for (int tap = first; tap < n; ++tap) {
+        for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+            const auto texel = hn::Load(d, index[tap].lane + i);
+            const auto here = hn::Eq(hn::ShiftRight<kLog2TexelsPerGroup>(texel), hn::Set(d, group));
+            const auto block = hn::ShiftRight<kLog2TexelsPerBlock>(texel);
+            const auto word = hn::IfThenElse(hn::Eq(hn::And(block, half), half), high, low);
+            touched = hn::Or(touched, hn::IfThenElseZero(here, hn::Shr(word, hn::And(block, hn::Set(d, 31)))));
+        }
+    }
+    return !hn::AllTrue(d, hn::Eq(hn::And(touched, hn::Set(d, 1)), hn::Zero(d)));
+}
+
 /// Has those blocks made that the taps touch and that are not ready. Groups are few: a coherent wave touches one to four.
 template <int n>
 HWY_NOINLINE void ensure_blocks(Texture& texture, const WaveInt (&index)[n]) {
@@ -103,8 +145,9 @@ HWY_NOINLINE void ensure_blocks(Texture& texture, const WaveInt (&index)[n]) {
         while (pending[tap] != 0) {
             const int32_t group = index[tap].lane[hwy::Num0BitsBelowLS1Bit_Nonzero32(pending[tap])] >> kLog2TexelsPerGroup;
             uint64_t missing = ~texture.ready_blocks(group);
-            if (missing != 0) missing &= blocks_touched(index, tap, group);
-            if (missing != 0) texture.make_blocks(group, missing);
+            if (missing != 0 && touches_blocks(index, tap, group, missing)) {
+                texture.make_blocks(group, missing & blocks_touched(index, tap, group));
+            }
             for (int k = tap; k < n; ++k) pending[k] &= ~lanes_in_group(index[k], group);
         }
     }
@@ -140,7 +183,7 @@ HWY_INLINE void gather_words(const std::byte* texels, const WaveInt& index, Wave
 
 /// One channel of a packed class, its field already at bit `shift` of the words.
 template <int n>
-HWY_INLINE void unpack_field(const TexelLayout& layout, int c, int shift, const Wave<uint32_t> (&words)[n], WaveFloat (&out)[n]) {
+HWY_INLINE void unpack_field(const TexelLayout& layout, int c, int shift, const Wave<uint32_t> (&words)[n], WaveFloat* out) {
     const FloatTag d;
     const IntTag di;
     const hn::RebindToUnsigned<IntTag> du;
@@ -180,10 +223,10 @@ HWY_INLINE void unpack_field(const TexelLayout& layout, int c, int shift, const 
 
 /// A channel that is not stored.
 template <int n>
-HWY_INLINE void fill_channel(float value, WaveFloat (&out)[n]) {
+HWY_INLINE void fill_channel(float value, WaveFloat* out) {
     const FloatTag d;
-    for (WaveFloat& wave : out) {
-        for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) hn::Store(hn::Set(d, value), d, wave.lane + i);
+    for (int tap = 0; tap < n; ++tap) {
+        for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) hn::Store(hn::Set(d, value), d, out[tap].lane + i);
     }
 }
 
@@ -200,7 +243,7 @@ HWY_INLINE hn::Vec<FloatTag> half_to_float_v(V half) {
 }
 
 template <int n>
-HWY_INLINE void unpack_halves(const Wave<uint32_t> (&words)[n], WaveFloat (&low)[n], WaveFloat (&high)[n]) {
+HWY_INLINE void unpack_halves(const Wave<uint32_t> (&words)[n], WaveFloat* low, WaveFloat* high) {
     const FloatTag d;
     const hn::RebindToUnsigned<IntTag> du;
     for (int tap = 0; tap < n; ++tap) {
@@ -213,20 +256,20 @@ HWY_INLINE void unpack_halves(const Wave<uint32_t> (&words)[n], WaveFloat (&low)
 }
 
 template <int n>
-HWY_INLINE void gather_packed32(const TexelLayout& layout, const std::byte* texels, const WaveInt (&index)[n], TexelWave<n>& out) {
+HWY_INLINE void gather_packed32(const TexelLayout& layout, const std::byte* texels, const WaveInt (&index)[n], const ChannelPointers& out) {
     Wave<uint32_t> words[n];
     for (int tap = 0; tap < n; ++tap) gather_words<1, 0>(texels, index[tap], words[tap]);
     for (int c = 0; c < 4; ++c) {
         if (layout.mask[c] != 0) {
-            unpack_field(layout, c, layout.shift[c], words, out.channel[c]);
+            unpack_field(layout, c, layout.shift[c], words, out[c]);
         } else {
-            fill_channel(layout.bias[c], out.channel[c]);
+            fill_channel<n>(layout.bias[c], out[c]);
         }
     }
 }
 
 template <int n>
-HWY_INLINE void gather_packed64(const TexelLayout& layout, const std::byte* texels, const WaveInt (&index)[n], TexelWave<n>& out) {
+HWY_INLINE void gather_packed64(const TexelLayout& layout, const std::byte* texels, const WaveInt (&index)[n], const ChannelPointers& out) {
     Wave<uint32_t> low[n], high[n];
     for (int tap = 0; tap < n; ++tap) {
         gather_words<2, 0>(texels, index[tap], low[tap]);
@@ -234,42 +277,42 @@ HWY_INLINE void gather_packed64(const TexelLayout& layout, const std::byte* texe
     }
     for (int c = 0; c < 4; ++c) {
         if (layout.mask[c] == 0) {
-            fill_channel(layout.bias[c], out.channel[c]);
+            fill_channel<n>(layout.bias[c], out[c]);
         } else if (layout.shift[c] < 32) {
-            unpack_field(layout, c, layout.shift[c], low, out.channel[c]);
+            unpack_field(layout, c, layout.shift[c], low, out[c]);
         } else {
-            unpack_field(layout, c, layout.shift[c] - 32, high, out.channel[c]);
+            unpack_field(layout, c, layout.shift[c] - 32, high, out[c]);
         }
     }
 }
 
 template <int n>
-HWY_INLINE void gather_half4(const std::byte* texels, const WaveInt (&index)[n], TexelWave<n>& out) {
+HWY_INLINE void gather_half4(const std::byte* texels, const WaveInt (&index)[n], const ChannelPointers& out) {
     Wave<uint32_t> low[n], high[n];
     for (int tap = 0; tap < n; ++tap) {
         gather_words<2, 0>(texels, index[tap], low[tap]);
         gather_words<2, 1>(texels, index[tap], high[tap]);
     }
-    unpack_halves(low, out.channel[0], out.channel[1]);
-    unpack_halves(high, out.channel[2], out.channel[3]);
+    unpack_halves(low, out[0], out[1]);
+    unpack_halves(high, out[2], out[3]);
 }
 
 template <int n>
-HWY_INLINE void gather_float4(const std::byte* texels, const WaveInt (&index)[n], TexelWave<n>& out) {
+HWY_INLINE void gather_float4(const std::byte* texels, const WaveInt (&index)[n], const ChannelPointers& out) {
     const FloatTag d;
     const IntTag di;
     const auto* const base = reinterpret_cast<const float*>(texels);
     for (int tap = 0; tap < n; ++tap) {
         for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
             const auto at = hn::ShiftLeft<2>(hn::Load(di, index[tap].lane + i));
-            for (int c = 0; c < 4; ++c) hn::Store(hn::GatherIndex(d, base + c, at), d, out.channel[c][tap].lane + i);
+            for (int c = 0; c < 4; ++c) hn::Store(hn::GatherIndex(d, base + c, at), d, out[c][tap].lane + i);
         }
     }
 }
 
 /// Gathers texels that are there.
 template <StorageClass storage, int n>
-HWY_INLINE void gather(const Texture& texture, const WaveInt (&index)[n], TexelWave<n>& out) {
+HWY_INLINE void gather(const Texture& texture, const WaveInt (&index)[n], const ChannelPointers& out) {
     if constexpr (storage == StorageClass::Packed32) gather_packed32(texture.texel_layout(), texture.texels(), index, out);
     if constexpr (storage == StorageClass::Packed64) gather_packed64(texture.texel_layout(), texture.texels(), index, out);
     if constexpr (storage == StorageClass::Half4) gather_half4(texture.texels(), index, out);

@@ -115,7 +115,7 @@ HWY_NOINLINE void fetch_beyond_edges(Texture& texture, const std::array<float, 4
         outside_taps(taps, outside);
         if (spare_border_texels(outside, index)) {
             ensure(texture, *taps.level, index);
-            gather<storage>(texture, index, out);
+            gather<storage>(texture, index, channels_of(out));
         }
         return put_border(outside, border, out);
     }
@@ -124,7 +124,7 @@ HWY_NOINLINE void fetch_beyond_edges(Texture& texture, const std::array<float, 4
         WaveMask corner[W * W];
         fold_cube_taps<storage>(texture.levels(), taps, index, corner);
         ensure(texture, *taps.level, index);
-        gather<storage>(texture, index, out);
+        gather<storage>(texture, index, channels_of(out));
         mean_at_corners<storage>(corner, out);
     }
 }
@@ -139,7 +139,7 @@ HWY_NOINLINE void fetch(Texture& texture, const std::array<float, 4>& border, bo
     tap_indices<storage>(texture.levels(), taps, index);
     if (taps.leaves) return fetch_beyond_edges<storage>(texture, border, cube, taps, index, out);
     ensure(texture, *taps.level, index);
-    gather<storage>(texture, index, out);
+    gather<storage>(texture, index, channels_of(out));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,6 +1,8 @@
 // Random numbers by address: a number is a hash of (pixel, sample, surface, dimension, seed), never the next of a stream.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace rawtexel::texunit {
@@ -27,6 +29,7 @@ enum class Dimension : uint32_t {
     TextureX = 17,
     TextureY = 18,  ///< where in the pixel textures are looked up, apart from coverage
 };
+inline constexpr size_t kDimensions = 19;
 
 struct RandomAddress {
     uint32_t x = 0, y = 0;  ///< pixel of the whole frame
@@ -58,6 +61,26 @@ constexpr uint32_t random_state(uint32_t seed, uint32_t sample, uint32_t surface
     const uint32_t state = mix_bits(mix_bits(kRandomStart ^ seed) ^ sample);
     return mix_bits(mix_bits(state ^ surface) ^ spread(dimension));
 }
+
+/// What the pixels of one seed, sample and surface share, absorbed once for whoever asks for many waves of their numbers.
+class RandomStates {
+  public:
+    /// random_state of the address, whose pixel is not looked at.
+    constexpr uint32_t of(const RandomAddress& address, Dimension dimension) {
+        if (!known_ || address.seed != seed_ || address.sample != sample_ || address.surface != surface_) absorb(address);
+        return state_[size_t(dimension)];
+    }
+
+  private:
+    constexpr void absorb(const RandomAddress& address) {
+        seed_ = address.seed, sample_ = address.sample, surface_ = address.surface, known_ = true;
+        for (size_t n = 0; n < kDimensions; ++n) state_[n] = random_state(seed_, sample_, surface_, Dimension(n));
+    }
+
+    bool known_ = false;
+    uint32_t seed_ = 0, sample_ = 0, surface_ = 0;
+    std::array<uint32_t, kDimensions> state_{};
+};
 
 /// 32 well-mixed bits.
 constexpr uint32_t random_bits(const RandomAddress& address) {

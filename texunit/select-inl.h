@@ -232,12 +232,16 @@ HWY_NOINLINE void select_axis_as(const WaveFloat& coordinate, const std::array<i
     }
 }
 
-/// Calls `act` with the rule for an axis of these extents as a constant of the type std::integral_constant.
+/// The rule in its cheapest form for an axis of these extents.
+HWY_INLINE EdgeRule cheapest_rule(EdgeRule rule, const std::array<int32_t, 16>& extents) {
+    return rule == EdgeRule::Repeat && std::has_single_bit(uint32_t(extents[0])) ? EdgeRule::RepeatBits : rule;
+}
+
+/// Calls `act` with the rule as a constant of the type std::integral_constant.
 template <class Act>
-HWY_INLINE auto with_rule(EdgeRule rule, const std::array<int32_t, 16>& extents, const Act& act) {
-    if (rule == EdgeRule::Repeat && std::has_single_bit(uint32_t(extents[0])))
-        return act(std::integral_constant<EdgeRule, EdgeRule::RepeatBits>());
+HWY_INLINE auto with_rule(EdgeRule rule, const Act& act) {
     switch (rule) {
+        case EdgeRule::RepeatBits: return act(std::integral_constant<EdgeRule, EdgeRule::RepeatBits>());
         case EdgeRule::MirroredRepeat: return act(std::integral_constant<EdgeRule, EdgeRule::MirroredRepeat>());
         case EdgeRule::ClampToEdge: return act(std::integral_constant<EdgeRule, EdgeRule::ClampToEdge>());
         case EdgeRule::ClampToBorder: return act(std::integral_constant<EdgeRule, EdgeRule::ClampToBorder>());
@@ -252,7 +256,7 @@ template <int W>
 HWY_INLINE bool select_axis(EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents, const WaveInt& level,
                             WaveMask nearest, WaveInt (&index)[W], WaveFloat& fraction, const CoordinateReading& reading,
                             WaveMask (&outside)[W]) {
-    return with_rule(rule, extents, [&](auto constant) HWY_ATTR {
+    return with_rule(cheapest_rule(rule, extents), [&](auto constant) HWY_ATTR {
         constexpr EdgeRule kRule = decltype(constant)::value;
         select_axis_as<kRule>(coordinate, extents, level, nearest, index, fraction, reading, outside);
         if constexpr (!can_leave(kRule)) return false;

@@ -207,7 +207,8 @@ template <class Act>
 HWY_INLINE void for_each_kernel(const DrawnSet& set, const DrawNumbers& numbers, const Act& act) {
     for (int k = 0; k < set.count; ++k) {
         const DrawnLookup& lookup = set.lookup[k];
-        DrawnPlace place;
+        WaveInt level;
+        DrawnPlace place(lookup, level);
         draw_place(lookup, numbers, place);
         const WaveMask magnified = place.choice.magnify & set.mask, minified = set.mask & ~magnified;
         if (magnified != 0) act(lookup, lookup.sampler->magnify, place, magnified);
@@ -219,9 +220,10 @@ HWY_NOINLINE inline void find_level_cells(const Enumeration& e, const DrawNumber
     cells.clear();
     for (int k = 0; k < e.set.count; ++k) {
         const DrawnLookup& lookup = e.set.lookup[k];
-        DrawnPlace place;
+        WaveInt level;
+        DrawnPlace place(lookup, level);
         draw_place(lookup, numbers, place);
-        step_levels(place.choice, e.set.mask, cells);
+        if (place.choice.mixes) step_levels(place.choice, e.set.mask, cells);
     }
     cells.finish();
 }
@@ -285,7 +287,7 @@ HWY_NOINLINE inline void find_texel_cells(const Enumeration& e, const DrawNumber
             step_axis(taps.y, OfOneSign(taps.sums_y, signs.negative_y), lanes, cells.y);
             if (taps.volume) step_axis(taps.z, OfOneSign(taps.sums_z, signs.negative_z), lanes, cells.z);
         }
-        if (place.position.cube()) step_corners(taps, lanes, cells.z);
+        if (lookup.position.cube()) step_corners(taps, lanes, cells.z);
     });
     for (NumberCells* axis : {&cells.x, &cells.y, &cells.z}) axis->finish();
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <exception>
 #include <utility>
 #include <vector>
@@ -206,6 +207,27 @@ void Texture::ensure_wave(const WaveInt& level, const WaveInt& slice, const Wave
         const int i = std::countr_zero(mask);
         ensure(level[i], slice[i], x[i], y[i]);
     }
+}
+
+bool Texture::is_one_colour() {
+    if (const Colours known = colours_.load(std::memory_order_acquire); known != Colours::Unknown) return known == Colours::One;
+    const Shape& shape = maker_->shape;
+    bool one = shape.width <= 4 && shape.height <= 4 && shape.depth == 1 && shape.layers == 1 && maker_->source_levels == 1;
+    if (one) {
+        const std::array<float, 4> first = texel(0, 0, 0, 0);
+        one = std::ranges::all_of(first, [](float value) { return std::isfinite(value); });
+        for (int y = 0; y < shape.height; ++y)
+            for (int x = 0; x < shape.width; ++x) one = one && texel(0, 0, x, y) == first;
+    }
+    colours_.store(one ? Colours::One : Colours::Several, std::memory_order_release);
+    return one;
+}
+
+void Texture::make_level(int level) {
+    const int width = levels_.width[size_t(level)], height = levels_.height[size_t(level)];
+    for (int slice = 0; uint64_t(slice) < maker_->slices(level); ++slice)
+        for (int y = 0; y < height; y += 4)
+            for (int x = 0; x < width; x += 4) ensure(level, slice, x, y);
 }
 
 std::array<float, 4> Texture::texel(int level, int slice, int x, int y) {

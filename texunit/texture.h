@@ -61,6 +61,12 @@ class Texture {
     /// `ensure` for the lanes of `mask`.
     void ensure_wave(const WaveInt& level, const WaveInt& slice, const WaveInt& x, const WaveInt& y, WaveMask mask);
 
+    /// Whether all texels of all levels are one finite colour: of textures of a single block and a single stored level, so that asking
+    /// decodes no more than any lookup does; false for all others. Throws as `ensure` does.
+    bool is_one_colour();
+    /// Makes every block of a level, and those of finer ones that it needs. Throws as `ensure` does.
+    void make_level(int level);
+
     /// The texel as linear RGBA, decoding it if need be. For tools and tests: one texel at a time.
     std::array<float, 4> texel(int level, int slice, int x, int y);
 
@@ -81,6 +87,8 @@ class Texture {
     std::unique_ptr<BlockStates> states_;
     const std::byte* texels_ = nullptr;
     std::atomic<uint32_t> ready_levels_{0};
+    enum class Colours : uint8_t { Unknown, One, Several };
+    std::atomic<Colours> colours_{Colours::Unknown};
 };
 
 }  // namespace rawtexel::texunit

@@ -129,7 +129,7 @@ HWY_NOINLINE void select_wide_axis_as(const Kernel& kernel, const WaveFloat& coo
 /// The taps of `kernel` along an axis, for all lanes.
 HWY_INLINE void select_wide_axis(const Kernel& kernel, EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents,
                                  const WaveInt& level, const CoordinateReading& reading, AxisTaps& taps) {
-    with_rule(rule, extents, [&](auto constant) HWY_ATTR {
+    with_rule(cheapest_rule(rule, extents), [&](auto constant) HWY_ATTR {
         select_wide_axis_as<decltype(constant)::value>(kernel, coordinate, extents, level, reading, taps);
     });
 }

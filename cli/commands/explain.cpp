@@ -88,6 +88,7 @@ class ExplainCommand : public Command {
 void ExplainCommand::settle_words(const Invocation& invocation) {
     if (!pixel_) throw UsageError("--pixel X,Y is missing (usage: rawtexel " + std::string(usage()) + ")");
     if (request_.samples.reference) throw UsageError("--reference: explain tells of samples, of which --spp says how many");
+    if (request_.samples.adaptive) throw UsageError("--adaptive: explain tells of one pixel, and blocks of pixels stop as a whole");
     settle(request_);
     check_pixel(*pixel_, request_);
     if (sample_) request_.samples.spp = std::max(request_.samples.spp, *sample_ + 1);

@@ -337,6 +337,8 @@ int RenderCommand::run(const Invocation& invocation) {
     if (record.standard_error)
         invocation.out << "Standard error: " << print_number(float(*record.standard_error)) << " after " << record.request.samples.spp
                        << " samples per pixel\n";
+    if (const std::optional<double> mean = mean_samples(record.result))
+        invocation.out << "Samples: " << print_quantity(*mean) << "per pixel, the mean\n";
     if (record.result.fetches) print_fetches(invocation.out, record.result);
     invocation.out << "Saved: " << output_ << '\n';
     return kDone;

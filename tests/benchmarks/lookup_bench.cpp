@@ -141,12 +141,13 @@ void drawn_lookup(benchmark::State& state, int extent, float footprint, SamplerS
     for (const WaveCoordinates& at : waves) sample_wave(*texture, sampler, at, kWaveFull, color);
     RandomAddress address;
     const NumberRoles roles = roles_of(sampler);
+    RandomStates states;
     for (auto _ : state) {
         ++address.sample;
         for (size_t w = 0; w < waves.size(); ++w) {
             address.x = uint32_t(w % 16) * kWaveWidth;
             address.y = uint32_t(w / 16) * kWaveHeight;
-            draw_numbers(address, numbers, Noise::White, roles);
+            draw_numbers(address, numbers, Noise::White, roles, states);
             sample_drawn_wave(*texture, sampler, waves[w], kWaveFull, numbers, color);
             benchmark::DoNotOptimize(color);
         }

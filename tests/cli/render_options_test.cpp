@@ -159,9 +159,18 @@ TEST(RenderOptions, HelpSaysTheRangeOfEveryNumber) {
     }
 }
 
-TEST(RenderOptions, WhatLaterVersionsMayKnowIsUnknownNow) {
-    for (const std::string option : {"--adaptive"})
-        EXPECT_TRUE(error_of({option, "1"}).starts_with("unknown option '" + option + "', the nearest is '--")) << error_of({option, "1"});
+TEST(RenderOptions, AdaptiveSamplingIsRefusedWhereItDecidesNothing) {
+    EXPECT_EQ(request_of({"--adaptive", "0.01", "--spp", "17"}).samples.adaptive, 0.01f);
+    for (const std::vector<std::string>& words :
+         std::initializer_list<std::vector<std::string>>{{"--adaptive", "0.01"},
+                                                         {"--adaptive", "0.01", "--spp", "16"},
+                                                         {"--adaptive", "0", "--spp", "64"},
+                                                         {"--adaptive", "nan", "--spp", "64"},
+                                                         {"--adaptive", "0.01", "--spp", "64", "--crop", "0,8,16,16"},
+                                                         {"--adaptive", "0.01", "--spp", "64", "--size", "40x40", "--crop", "0,0,39,40"},
+                                                         {"--adaptive", "0.01", "--reference", "0.1"}})
+        EXPECT_TRUE(error_of(words).starts_with(words.back() == "0.1" ? "--reference" : "--adaptive")) << error_of(words);
+    EXPECT_EQ(error_of({"--adaptive", "0.01", "--spp", "64", "--size", "40x40", "--crop", "16,32,24,8"}), "");
 }
 
 TEST(RenderOptions, PeerShadingPresetsWhatNoOptionSays) {

@@ -1,11 +1,13 @@
 // Whatever a frame leaves out, the image has the same bits, border pixels included.
 #include "shading/skips.h"
 
+#include "scene_parts.h"
 #include "shading/cluster_meshes.h"
 #include "shading/render.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -111,6 +113,83 @@ TEST_F(SkipsTest, ChangeNoBitWhicheverIsOff) {
     EXPECT_GT(sum.culled_occluded, 0u);
     EXPECT_GT(sum.hiz_rejected, 0u);
     EXPECT_GT(sum.tiles_empty, 0u);
+}
+
+/// The busy scene with small textures of one colour and of nearly one, and with one that nothing shows.
+Scene busy_scene_with_constants() {
+    Scene scene = test::make_busy_scene();
+    const auto add = [&](int width, int height, const glm::vec4& last) {
+        const auto color = [=](int x, int y) { return x == width - 1 && y == height - 1 ? last : glm::vec4(0.7f, 0.6f, 0.3f, 1.0f); };
+        scene.textures.push_back(test::make_texture(width, height, color));
+        return int(scene.textures.size()) - 1;
+    };
+    const glm::vec4 same(0.7f, 0.6f, 0.3f, 1.0f);
+    const int one = add(1, 1, same), four = add(4, 4, same), nearly = add(4, 3, same * 1.25f);
+    scene.materials[0].maps[kEmissive].texture = four;
+    scene.materials[0].emission = glm::vec3(0.2f);
+    scene.materials[1].maps[kOcclusion].texture = one;
+    scene.materials[2].maps[kOcclusion].texture = nearly;
+    scene.textures.push_back(test::make_noise_texture(64, 64, 9));
+    return scene;
+}
+
+constexpr bool Skips::*kOfLookups[] = {&Skips::lazy_files, &Skips::lazy_levels, &Skips::lazy_blocks, &Skips::constant_texels,
+                                       &Skips::zero_weight_taps};
+
+TEST(LitSkipsTest, ChangeNoBitOfLightAndTextures) {
+    const std::unique_ptr<Executor> two = make_executor(ExecutorKind::Threads, 2);
+    const Lighting lighting = test::busy_lighting(busy_scene_with_constants(), *two);
+    // A scene of its own for each frame: what has been decoded stays decoded.
+    const auto render_anew = [&](const RenderOptions& options) { return render(busy_scene_with_constants(), lighting, options, *two); };
+    for (const int spp : {1, 16, 64})
+        for (const PixelFilter filter : {PixelFilter::Box, PixelFilter::Tent, PixelFilter::Gaussian})
+            for (const PixelJitter jitter : {PixelJitter::Frame, PixelJitter::Pixel}) {
+                RenderOptions options;
+                options.width = 75;
+                options.height = 37;
+                options.camera = test::busy_camera();
+                options.spp = spp;
+                options.pixel_filter = filter;
+                options.pixel_jitter = jitter;
+                const RenderResult all = render_anew(options);
+                for (const SkipInfo& skip : kSkips) {
+                    if (std::ranges::none_of(kOfLookups, [&](bool Skips::*of) { return of == skip.on; })) continue;
+                    RenderOptions without = options;
+                    without.skips.*skip.on = false;
+                    EXPECT_TRUE(same_bits(render_anew(without).radiance, all.radiance))
+                        << skip.name << " off, " << spp << " samples, " << to_string(filter) << ", " << to_string(jitter);
+                }
+            }
+}
+
+TEST(LitSkipsTest, LeaveAloneWhatNoSampleReads) {
+    const std::unique_ptr<Executor> one = make_executor(ExecutorKind::Threads, 1);
+    RenderOptions options;
+    options.width = 75;
+    options.height = 37;
+    options.camera = test::busy_camera();
+    const auto work = [&](bool Skips::*off) {
+        const Scene scene = busy_scene_with_constants();
+        RenderOptions asked = options;
+        if (off != nullptr) asked.skips.*off = false;
+        render(scene, test::busy_lighting(scene, *one), asked, *one);
+        std::vector<texunit::TextureWork> done;
+        for (const SceneTexture& texture : scene.textures) done.push_back(texture.texture->work());
+        return done;
+    };
+    const auto lazy = work(nullptr), files = work(&Skips::lazy_files), blocks = work(&Skips::lazy_blocks),
+               levels = work(&Skips::lazy_levels);
+    const size_t unseen = lazy.size() - 1;
+    EXPECT_EQ(lazy[unseen].bytes_decoded, 0u);
+    EXPECT_EQ(files[unseen].blocks_decoded, 1u);
+    EXPECT_EQ(blocks[unseen].blocks_decoded, 16u * 16u);
+    EXPECT_EQ(blocks[unseen].blocks_decoded_mips, 0u);
+    EXPECT_EQ(levels[unseen].blocks_decoded_mips, 64u + 16u + 4u + 1u + 1u + 1u);
+    // The coarser level of what is one colour is never made, nor any of what is not looked up.
+    const size_t four = unseen - 2;
+    EXPECT_EQ(lazy[four].blocks_decoded, 1u);
+    EXPECT_EQ(lazy[four].blocks_decoded_mips, 0u);
+    EXPECT_GT(work(&Skips::constant_texels)[four].blocks_decoded_mips, 0u);
 }
 
 TEST_F(SkipsTest, ClustersMadeOnceDrawWhatThoseOfAFrameDo) {
