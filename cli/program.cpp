@@ -10,6 +10,8 @@
 #include "cli/commands/render.h"
 #include "cli/commands/sample.h"
 #include "cli/commands/texture.h"
+#include "cli/commands/vectors.h"
+#include "cli/commands/verify_shader.h"
 #include "cli/run_record.h"
 #include "cli/version.h"
 #include "cli/word_list.h"
@@ -29,11 +31,12 @@ namespace rawtexel::cli {
 namespace {
 
 using Words = std::vector<std::string>;
-using Commands = std::array<std::unique_ptr<Command>, 9>;
+using Commands = std::array<std::unique_ptr<Command>, 11>;
 
 Commands all_commands() {
-    return {make_render_command(), make_profile_command(), make_bench_command(), make_compare_command(), make_explain_command(),
-            make_sample_command(), make_texture_command(), make_list_command(),  make_export_command()};
+    return {make_render_command(),  make_profile_command(), make_bench_command(),        make_compare_command(),
+            make_explain_command(), make_sample_command(),  make_texture_command(),      make_list_command(),
+            make_export_command(),  make_vectors_command(), make_verify_shader_command()};
 }
 
 std::vector<std::string> names_of(const Commands& commands) {
@@ -47,15 +50,17 @@ CommandLine& declare(CommandLine& line, Command& command) {
     return line;
 }
 
+constexpr size_t kCommandColumn = 18;  ///< where the help's texts begin
+
 std::string program_help(const Commands& commands) {
     std::string text = "Usage: rawtexel COMMAND ...\n\nA software rasterizer whose subject is the texture unit.\n\nCommands:\n";
     for (const auto& command : commands) {
         std::string left = "  " + std::string(command->name());
-        left.resize(12, ' ');
-        text += left + wrap_text(command->summary(), 98, 12) + "\n";
+        left.resize(kCommandColumn, ' ');
+        text += left + wrap_text(command->summary(), 110 - kCommandColumn, kCommandColumn) + "\n";
     }
     return text +
-           "  help      This text, or that of a command: `rawtexel help COMMAND`, the same as `rawtexel COMMAND --help`.\n"
+           "  help            This text, or that of a command: `rawtexel help COMMAND`, or `rawtexel COMMAND --help`.\n"
            "\nThe order of words does not matter.\n\n"
            "Options:\n  -h,--help   this text\n  --version   the program's version\n\n"
            "Exit codes: 0 done, 1 a check asked for did not hold, 2 wrong usage, 3 input could not be read or is invalid,\n"

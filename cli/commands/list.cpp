@@ -3,6 +3,7 @@
 #include "cli/counters.h"
 #include "cli/option_values.h"
 #include "cli/reports/kernel_plot.h"
+#include "cli/vectors/suite.h"
 #include "scenes/builtin.h"
 #include "scenes/output_file.h"
 #include "shading/baseline.h"
@@ -41,14 +42,15 @@ Entries filter_entries() {
 }
 
 Entries entries_for(const std::string& subject) {
-    switch (parse_word("list", subject, {"scenes", "filters", "estimators", "noises", "baselines", "formats", "counters"})) {
+    switch (parse_word("list", subject, {"scenes", "filters", "estimators", "noises", "baselines", "formats", "counters", "suites"})) {
         case 0: return entries_of(scenes::builtin_scenes());
         case 1: return filter_entries();
         case 2: return entries_of(texunit::all_estimators());
         case 3: return entries_of(texunit::all_noises());
         case 4: return entries_of(shading::all_baselines());
         case 5: return entries_of(texunit::all_formats());
-        default: return entries_of(all_counters());
+        case 6: return entries_of(all_counters());
+        default: return entries_of(all_suites());
     }
 }
 
@@ -79,14 +81,15 @@ class ListCommand : public Command {
   public:
     std::string_view name() const override { return "list"; }
     std::string_view usage() const override {
-        return "list scenes|filters|estimators|noises|baselines|formats|counters [--json] [--plot FILE.svg]";
+        return "list scenes|filters|estimators|noises|baselines|formats|counters|suites [--json] [--plot FILE.svg]";
     }
     std::string_view summary() const override {
-        return "Lists built-in scenes, texture filters, estimators, noises, baselines, texel formats or counters, one a line.";
+        return "Lists built-in scenes, texture filters, estimators, noises, baselines, texel formats, counters or suites of test vectors, "
+               "one a line.";
     }
 
     void declare(CommandLine& line) override {
-        line.arguments("SUBJECT", "scenes, filters, estimators, noises, baselines, formats or counters", 1, 1, words_);
+        line.arguments("SUBJECT", "scenes, filters, estimators, noises, baselines, formats, counters or suites", 1, 1, words_);
         line.flag("--json", "an array of objects with \"name\" and \"description\"", json_);
         line.option("--plot", "FILE.svg", "of filters: draws what every kernel weighs along an axis",
                     [&](const std::string& text) { plot_ = text; });

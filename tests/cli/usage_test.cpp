@@ -65,7 +65,7 @@ TEST(Usage, WrongWordsAreExitCode2WithTheNearestSpelling) {
         {{"render", "plane", "-o", "x.png", "--filter", "lanczos2", "--estimator", "jitter"}, "reservoir draws it"},
         {{"list"}, "missing argument"},
         {{"list", "scene"}, "the nearest is 'scenes'"},
-        {{"list", "suites"}, "unknown value 'suites'"},
+        {{"list", "suits"}, "nearest is 'suites'"},
         {{"export", "plane", "-o", "x.gltf"}, ".glb"},
         {{"export", "plane"}, "-o FILE.glb is missing"},
         {{}, "no command given"},

@@ -1,0 +1,16 @@
+// The port of suite lod: levels of detail.
+// include "lookup.wgsl"
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3u) {
+    let index = id.x;
+    if (index >= case_count()) {
+        return;
+    }
+    let op: u32 = case_uint(index, 0u);
+    var r: Result = no_result();
+    if (op == OP_SAMPLE) {
+        r = filter_case(index);
+    }
+    write_result(index, r);
+}
