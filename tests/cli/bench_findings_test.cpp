@@ -151,6 +151,23 @@ TEST(Findings, DoNotFavourAfter) {
     EXPECT_NE(text_of(unclear, FindingKind::Orders).find("both as near as the truth can tell"), std::string::npos);
 }
 
+TEST(Findings, CompareOrdersWithSamplesThatBothHaveOfTheNearestSetting) {
+    const Curve before{.noise = 0.3}, after{.order = "after", .noise = 0.3};
+    const Curve drawn{.estimator = "reservoir", .order = "after", .texels = 1, .noise = 3};
+    SceneResults results = results_of({before, after, drawn});
+    // All taps after shading were left out with 64 samples; the draws were not.
+    std::erase_if(results.measurements,
+                  [](const Measurement& one) { return one.order == "after" && one.estimator == "all" && one.spp == 64; });
+    EXPECT_EQ(text_of(results, FindingKind::Orders),
+              "bilinear, with 16 samples: before and after shading are equally near to the truth (0.075).");
+    // Draws that win all the same win.
+    for (Measurement& one : results.measurements)
+        if (one.estimator == "reservoir") one.error.rmse /= 100;
+    EXPECT_EQ(text_of(results, FindingKind::Orders),
+              "bilinear, with 64 samples: filtering after shading is 10 times nearer to the truth: 0.00375 (mip none · reservoir) against "
+              "0.0375 (mip none · all).");
+}
+
 TEST(Findings, SayWhereOneTapOfACubicReadsTheFewest) {
     const Curve one{.filter = "bspline", .estimator = "reservoir", .order = "after", .texels = 1, .noise = 1};
     // All 16 taps have half the noise: they read four times as many texels for the same error, but for one sample's.
