@@ -165,8 +165,12 @@ void describe_one_tap(const Series& own, const SceneResults& results, const std:
     const auto last_won = std::find_if(duels.rbegin(), duels.rend(), [](const OneTapDuel& duel) { return duel.wins(); });
     if (last_won != duels.rend()) {
         text += ": " + at(*last_won) + " it reads " + texels(last_won->fetches) + " a pixel, ";
-        text += last_won->rival ? last_won->rival->name() + " " + short_figure(last_won->rival_fetches)
-                                : std::string("and none of them gets there");
+        if (last_won->rival == nullptr)
+            text += "and none of them gets there";
+        else if (last_won->fetches == last_won->rival_fetches)
+            text += "as many as " + last_won->rival->name();
+        else
+            text += last_won->rival->name() + " " + short_figure(last_won->rival_fetches);
     }
     text += ".";
     const auto lost = std::ranges::min_element(

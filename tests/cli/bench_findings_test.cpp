@@ -179,7 +179,8 @@ TEST(Findings, SayWhereOneTapOfACubicReadsTheFewest) {
     const SceneResults loses = results_of({one, {.filter = "bspline", .order = "after", .texels = 16, .noise = 0.1}});
     EXPECT_EQ(text_of(loses, FindingKind::OneTap, "bspline"),
               "One-tap bspline (mip none · reservoir) has the fewest fetches at 3 of 4 errors that it reaches, against more taps of its "
-              "kernel: at RMSE 0.25 (16 samples) it reads 16 texels a pixel, bspline · mip none · all · after 16. It has not at RMSE 0.125 "
+              "kernel: at RMSE 0.25 (16 samples) it reads 16 texels a pixel, as many as bspline · mip none · all · after. It has not at "
+              "RMSE 0.125 "
               "(64 samples): there bspline · mip none · all · after reads 16, it 64.");
     const SceneResults floor = results_of({one, {.filter = "bspline", .texels = 16, .floor = 2, .noise = 0.1}});
     EXPECT_NE(text_of(floor, FindingKind::OneTap, "bspline").find("none of them gets there"), std::string::npos);
@@ -187,7 +188,8 @@ TEST(Findings, SayWhereOneTapOfACubicReadsTheFewest) {
     const SceneResults others = results_of({one, {.estimator = "reservoir", .order = "after", .texels = 1, .noise = 0.5}});
     EXPECT_EQ(text_of(others, FindingKind::OneTapOthers, "bspline"),
               "One-tap bspline (mip none · reservoir) has the fewest fetches at 1 of 4 errors that it reaches, against other kernels: at "
-              "RMSE 1 (1 sample) it reads 1 texel a pixel, bilinear · mip none · reservoir · after 1. It has not at RMSE 0.5 (4 samples): "
+              "RMSE 1 (1 sample) it reads 1 texel a pixel, as many as bilinear · mip none · reservoir · after. It has not at RMSE 0.5 (4 "
+              "samples): "
               "there bilinear · mip none · reservoir · after reads 1, it 4.");
 }
 
