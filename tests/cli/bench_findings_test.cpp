@@ -151,6 +151,23 @@ TEST(Findings, DoNotFavourAfter) {
     EXPECT_NE(text_of(unclear, FindingKind::Orders).find("both as near as the truth can tell"), std::string::npos);
 }
 
+TEST(Findings, CompareOrdersWithSamplesThatBothHaveOfTheNearestSetting) {
+    const Curve before{.noise = 0.3}, after{.order = "after", .noise = 0.3};
+    const Curve drawn{.estimator = "reservoir", .order = "after", .texels = 1, .noise = 3};
+    SceneResults results = results_of({before, after, drawn});
+    // All taps after shading were left out with 64 samples; the draws were not.
+    std::erase_if(results.measurements,
+                  [](const Measurement& one) { return one.order == "after" && one.estimator == "all" && one.spp == 64; });
+    EXPECT_EQ(text_of(results, FindingKind::Orders),
+              "bilinear, with 16 samples: before and after shading are equally near to the truth (0.075).");
+    // Draws that win all the same win.
+    for (Measurement& one : results.measurements)
+        if (one.estimator == "reservoir") one.error.rmse /= 100;
+    EXPECT_EQ(text_of(results, FindingKind::Orders),
+              "bilinear, with 64 samples: filtering after shading is 10 times nearer to the truth: 0.00375 (mip none · reservoir) against "
+              "0.0375 (mip none · all).");
+}
+
 TEST(Findings, SayWhereOneTapOfACubicReadsTheFewest) {
     const Curve one{.filter = "bspline", .estimator = "reservoir", .order = "after", .texels = 1, .noise = 1};
     // All 16 taps have half the noise: they read four times as many texels for the same error, but for one sample's.
@@ -162,7 +179,8 @@ TEST(Findings, SayWhereOneTapOfACubicReadsTheFewest) {
     const SceneResults loses = results_of({one, {.filter = "bspline", .order = "after", .texels = 16, .noise = 0.1}});
     EXPECT_EQ(text_of(loses, FindingKind::OneTap, "bspline"),
               "One-tap bspline (mip none · reservoir) has the fewest fetches at 3 of 4 errors that it reaches, against more taps of its "
-              "kernel: at RMSE 0.25 (16 samples) it reads 16 texels a pixel, bspline · mip none · all · after 16. It has not at RMSE 0.125 "
+              "kernel: at RMSE 0.25 (16 samples) it reads 16 texels a pixel, as many as bspline · mip none · all · after. It has not at "
+              "RMSE 0.125 "
               "(64 samples): there bspline · mip none · all · after reads 16, it 64.");
     const SceneResults floor = results_of({one, {.filter = "bspline", .texels = 16, .floor = 2, .noise = 0.1}});
     EXPECT_NE(text_of(floor, FindingKind::OneTap, "bspline").find("none of them gets there"), std::string::npos);
@@ -170,7 +188,8 @@ TEST(Findings, SayWhereOneTapOfACubicReadsTheFewest) {
     const SceneResults others = results_of({one, {.estimator = "reservoir", .order = "after", .texels = 1, .noise = 0.5}});
     EXPECT_EQ(text_of(others, FindingKind::OneTapOthers, "bspline"),
               "One-tap bspline (mip none · reservoir) has the fewest fetches at 1 of 4 errors that it reaches, against other kernels: at "
-              "RMSE 1 (1 sample) it reads 1 texel a pixel, bilinear · mip none · reservoir · after 1. It has not at RMSE 0.5 (4 samples): "
+              "RMSE 1 (1 sample) it reads 1 texel a pixel, as many as bilinear · mip none · reservoir · after. It has not at RMSE 0.5 (4 "
+              "samples): "
               "there bilinear · mip none · reservoir · after reads 1, it 4.");
 }
 
