@@ -17,7 +17,7 @@ struct BenchPlot {
 };
 
 /// Of every kernel error against time, samples and fetches, time against samples, and where there are finer levels bias against how much
-/// finer; of several kernels error against time and fetches beside each other. Rings are the scene's front; hollow points have an error
+/// finer; of several kernels error against time and fetches beside each other. Rings are the kernel's front; hollow points have an error
 /// that may be the truth's own. `first`: the number of the scene's first measurement among those of all scenes, for the points' keys;
 /// `word` of the scene (scene_word), for the files.
 std::vector<BenchPlot> bench_plots(const SceneResults& results, const std::vector<Series>& series, const Fronts& fronts, size_t first,

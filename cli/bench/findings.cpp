@@ -159,7 +159,8 @@ void describe_one_tap(const Series& own, const SceneResults& results, const std:
     std::string text = "One-tap " + own.filter + " (" + own.minification + " · " + own.estimator + ") has ";
     text += won == 0 ? "not the fewest fetches at any of the " + all + errors
                      : "the fewest fetches at " + std::to_string(won) + " of " + all + errors;
-    text += std::string(" that it reaches, against ") + (other_kernels ? "other kernels" : "more taps of its kernel");
+    text += std::string(" that it reaches, against ") +
+            (other_kernels ? "other kernels, each beside its own truth" : "more taps of its kernel");
     const auto at = [](const OneTapDuel& duel) { return "at RMSE " + short_figure(duel.rmse) + " (" + samples(duel.spp) + ")"; };
     // Won at the least error; lost where the rival reads the smallest share.
     const auto last_won = std::find_if(duels.rbegin(), duels.rend(), [](const OneTapDuel& duel) { return duel.wins(); });

@@ -94,12 +94,21 @@ std::string print(const PowerFit& slope) {
 }
 
 Fronts fronts_of(const SceneResults& results) {
-    std::vector<Sample> times, fetches;
-    for (const Measurement& one : results.measurements) {
-        times.push_back({one.frame_median(), one.error.rmse});
-        fetches.push_back({one.texels_per_pixel(), one.error.rmse});
+    Fronts fronts{std::vector<bool>(results.measurements.size()), std::vector<bool>(results.measurements.size())};
+    for (const Truth& truth : results.truths) {
+        std::vector<size_t> held;
+        std::vector<Sample> times, fetches;
+        for (size_t i = 0; i < results.measurements.size(); ++i) {
+            const Measurement& one = results.measurements[i];
+            if (&results.truth_of(one) != &truth) continue;
+            held.push_back(i);
+            times.push_back({one.frame_median(), one.error.rmse});
+            fetches.push_back({one.texels_per_pixel(), one.error.rmse});
+        }
+        const std::vector<bool> in_time = pareto_front(times), in_fetches = pareto_front(fetches);
+        for (size_t k = 0; k < held.size(); ++k) fronts.time[held[k]] = in_time[k], fronts.fetches[held[k]] = in_fetches[k];
     }
-    return {pareto_front(times), pareto_front(fetches)};
+    return fronts;
 }
 
 std::optional<double> fetches_at(const Series& series, const SceneResults& results, double rmse) {

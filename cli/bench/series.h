@@ -41,7 +41,8 @@ std::vector<Series> series_of(const SceneResults& results);
 /// "N^−0.52", N being the samples.
 std::string print(const PowerFit& slope);
 
-/// On which front each measurement of a scene is: error against the median time, and against texel reads a pixel.
+/// On which front each measurement is among those held against the same truth, its kernel's: error against the median time, and against
+/// texel reads a pixel.
 struct Fronts {
     std::vector<bool> time, fetches;
 };

@@ -187,7 +187,8 @@ TEST(Findings, SayWhereOneTapOfACubicReadsTheFewest) {
     // Other kernels are another matter.
     const SceneResults others = results_of({one, {.estimator = "reservoir", .order = "after", .texels = 1, .noise = 0.5}});
     EXPECT_EQ(text_of(others, FindingKind::OneTapOthers, "bspline"),
-              "One-tap bspline (mip none · reservoir) has the fewest fetches at 1 of 4 errors that it reaches, against other kernels: at "
+              "One-tap bspline (mip none · reservoir) has the fewest fetches at 1 of 4 errors that it reaches, against other kernels, each "
+              "beside its own truth: at "
               "RMSE 1 (1 sample) it reads 1 texel a pixel, as many as bilinear · mip none · reservoir · after. It has not at RMSE 0.5 (4 "
               "samples): "
               "there bilinear · mip none · reservoir · after reads 1, it 4.");
