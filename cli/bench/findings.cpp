@@ -81,7 +81,7 @@ void describe_order(FindingKind kind, const std::string& filter, const Group& gr
     constexpr std::pair<Trend, const char*> kTrends[] = {{Trend::Floor, "hits a floor: "},
                                                          {Trend::Flattens, "flattens: "},
                                                          {Trend::Falls, "falls: "},
-                                                         {Trend::Truth, "as near as the truth can tell: "},
+                                                         {Trend::Truth, "as near as this truth can tell: "},
                                                          {Trend::Unknown, "too few numbers to tell: "}};
     std::string text = filter + (kind == FindingKind::Before ? ", filtered before shading: " : ", filtered after shading: ");
     bool first = true;
@@ -132,7 +132,7 @@ void compare_orders(const std::string& filter, const Group& before, const Group&
     std::string text = filter + ", with " + samples(spp) + ": ";
     const Truth& truth = results.truth_of(near);
     if (!is_clear(far, truth)) {
-        text += "before and after shading are both as near as the truth can tell (" + short_figure(far.error.rmse) + ").";
+        text += "before and after shading are both as near as this truth can tell (" + short_figure(far.error.rmse) + ").";
     } else if (far.error.rmse <= kEqual * near.error.rmse) {
         text += "before and after shading are equally near to the truth (" + short_figure(near.error.rmse) + ").";
     } else {
@@ -142,6 +142,15 @@ void compare_orders(const std::string& filter, const Group& before, const Group&
                 short_figure(far.error.rmse) + " (" + setting(far) + ").";
     }
     findings.push_back({FindingKind::Orders, filter, text});
+}
+
+void describe_truth(const std::string& filter, const SceneResults& results, std::vector<Finding>& findings) {
+    const auto truth = std::ranges::find(results.truths, filter, &Truth::filter);
+    if (truth == results.truths.end() || truth->standard_error <= truth->goal) return;
+    findings.push_back({FindingKind::Truth, filter,
+                        filter + ": its truth is known to " + short_figure(truth->standard_error) + " and not to the " +
+                            short_figure(truth->goal) + " aimed at; errors below " + short_figure(kClearMultiple * truth->standard_error) +
+                            " are its own."});
 }
 
 bool is_cubic(const std::string& filter) {
@@ -190,9 +199,10 @@ std::string_view to_string(FindingKind kind) {
         case FindingKind::After: return "after";
         case FindingKind::Orders: return "orders";
         case FindingKind::OneTap: return "one-tap";
-        case FindingKind::OneTapOthers: break;
+        case FindingKind::OneTapOthers: return "one-tap-others";
+        case FindingKind::Truth: break;
     }
-    return "one-tap-others";
+    return "truth";
 }
 
 std::vector<OneTapDuel> one_tap_duels(const Series& own, const SceneResults& results, const std::vector<Series>& series,
@@ -228,6 +238,7 @@ std::vector<Finding> findings_of(const SceneResults& results, const std::vector<
         describe_order(FindingKind::Before, filter, before, results, findings);
         describe_order(FindingKind::After, filter, after, results, findings);
         compare_orders(filter, before, after, results, findings);
+        describe_truth(filter, results, findings);
         const Series* own = is_cubic(filter) ? nearest(one_tap, results) : nullptr;
         if (!own) continue;
         describe_one_tap(*own, results, series, false, findings);

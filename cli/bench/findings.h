@@ -10,8 +10,8 @@
 
 namespace rawtexel::cli {
 
-enum class FindingKind { Before, After, Orders, OneTap, OneTapOthers };
-std::string_view to_string(FindingKind kind);  // before after orders one-tap one-tap-others
+enum class FindingKind { Before, After, Orders, OneTap, OneTapOthers, Truth };
+std::string_view to_string(FindingKind kind);  // before after orders one-tap one-tap-others truth
 
 struct Finding {
     FindingKind kind = FindingKind::Before;
@@ -20,7 +20,8 @@ struct Finding {
 
 /// Of each kernel: what becomes of the errors before and after shading with more samples; which of the two is nearer to the truth with as
 /// many samples; and whether one raw texel of a cubic kernel reads the fewest texels at equal error, of all settings of its kernel, and of
-/// those of other kernels. Series of finer levels (--hybrid-bias) are left out.
+/// those of other kernels; and where the truth missed the error that was aimed at, from where on it tells nothing. Series of finer levels
+/// (--hybrid-bias) are left out.
 std::vector<Finding> findings_of(const SceneResults& results, const std::vector<Series>& series);
 
 /// One texel of a cubic kernel against other settings, at one error that it reaches.

@@ -59,7 +59,7 @@ function fillPlots() {
 
 /** What becomes of the errors stands out. */
 function findingItem(finding) {
-    const parts = finding.text.split(/((?:hits a floor|flattens|falls|as near as the truth can tell|too few numbers to tell):|the fewest fetches at \d+ of \d+ errors?|[\d.]+ times nearer)/);
+    const parts = finding.text.split(/((?:hits a floor|flattens|falls|as near as this truth can tell|too few numbers to tell):|the fewest fetches at \d+ of \d+ errors?|[\d.]+ times nearer)/);
     return element('li', {'data-kind': finding.kind}, ...parts.map((part, i) => i % 2 ? element('strong', {}, part) : part));
 }
 
