@@ -24,7 +24,7 @@ struct PortRun {
 };
 
 /// One result a case. `device`: part of a device's name, empty for the first that is no CPU, or else the first. Throws NoVulkan;
-/// scenes::InputError, naming `path`, where the device cannot run the module.
+/// scenes::InputError, naming `path`, where the device cannot run the module or its driver crashes: it runs in a process of its own.
 PortRun run_port(const Suite& suite, const SpirvModule& module, const std::string& path, const std::string& device);
 
 /// Names of the devices there are; throws NoVulkan where there is no loader.

@@ -1,12 +1,19 @@
 // Our own ports pass every suite on the Vulkan device that is here, lavapipe in continuous integration.
 #include "cli/vectors/suite.h"
+#include "cli/vulkan/child_process.h"
+#include "cli/vulkan/glsl_compiler.h"
 #include "tests/cli/port_device.h"
 #include "tests/cli/program_runner.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <random>
 #include <string>
+#include <unistd.h>
 
 namespace rawtexel::test {
 namespace {
@@ -116,6 +123,57 @@ TEST(PortRun, RefusesWhatIsNoShaderOfTheContract) {
     EXPECT_EQ(why_not_failed(run({"verify-shader", "--suite", "triplanar", "--glsl", port_of("triplanar"), "--device", "no such device"}),
                              3, "no Vulkan device has 'no such device' in its name"),
               "");
+}
+
+/// Mesa's compiler of SPIR-V crashes on some of these, and must not take the program with it.
+TEST(PortRun, EndsInOneLineWhateverIsDamagedInAModule) {
+    RAWTEXEL_NEED_PORTS();
+    const TemporaryFolder folder;
+    const std::vector<std::byte> whole = cli::compile_glsl(port_of("lod"));
+    std::mt19937 random(3);
+    int crashed = 0, refused = 0;
+    for (int n = 0; n < 24; ++n) {
+        std::vector<std::byte> damaged = whole;
+        if (n % 4 == 0) {
+            damaged.resize(whole.size() * (size_t(n) / 4 + 1) / 8 / 4 * 4);
+        } else {
+            for (int bit = 0; bit < 1 << n % 4; ++bit) damaged[20 + random() % (whole.size() - 20)] ^= std::byte(1 << random() % 8);
+        }
+        const std::string text(reinterpret_cast<const char*>(damaged.data()), damaged.size());
+        const Outcome outcome = run({"verify-shader", "--suite", "lod", "--spirv", folder.write("damaged.spv", text)});
+        EXPECT_TRUE(outcome.code == 0 || outcome.code == 1 || outcome.code == 3) << n << ": " << outcome.code;
+        if (outcome.code != 3) continue;
+        ++refused;
+        crashed += outcome.err.find("the driver crashed on it") != std::string::npos;
+        EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << n << ": " << outcome.err;
+    }
+    EXPECT_GT(refused, 0);
+    std::printf("of 24 damaged modules %d are refused, of which %d crash the driver\n", refused, crashed);
+}
+
+TEST(ChildProcess, TellsHowItsWorkEnded) {
+    using End = cli::ChildOutcome::End;
+    std::vector<std::byte> much(300'000);
+    for (size_t i = 0; i < much.size(); ++i) much[i] = std::byte(i * 7 >> 3);
+    const cli::ChildOutcome returned = cli::run_in_child([&] { return much; }, std::chrono::seconds(60));
+    EXPECT_EQ(returned.end, End::Returned);
+    EXPECT_EQ(returned.bytes, much);
+    const cli::ChildOutcome died = cli::run_in_child(
+        [&]() -> std::vector<std::byte> {
+            std::raise(SIGKILL);
+            return much;
+        },
+        std::chrono::seconds(60));
+    EXPECT_EQ(died.end, End::Died);
+    EXPECT_EQ(died.signal, SIGKILL);
+    EXPECT_TRUE(died.bytes.empty());
+    const cli::ChildOutcome hung = cli::run_in_child(
+        [&]() -> std::vector<std::byte> {
+            for (;;) pause();
+        },
+        std::chrono::milliseconds(50));
+    EXPECT_EQ(hung.end, End::Hung);
+    EXPECT_TRUE(hung.bytes.empty());
 }
 
 TEST(PortRun, SaysThatAShaderThatWritesNothingWritesNothing) {
