@@ -56,16 +56,15 @@ void include(CellRange& range, const CellRange& other) {
 
 }  // namespace
 
-OcclusionBuffer::OcclusionBuffer(const FrameOptions& options, const TileGrid& grid)
-    : options_(options),
-      grid_(grid),
-      columns_((options.width + kCellPixels - 1) / kCellPixels),
-      rows_((options.height + kCellPixels - 1) / kCellPixels),
-      depth_(size_t(columns_) * size_t(rows_)),
-      cells_(depth_.size()) {
+OcclusionBuffer::OcclusionBuffer(const FrameOptions& options, const TileGrid& grid) : options_(options), grid_(grid) {
     const int per_tile = options.tile_size / kCellPixels;
-    active_ = {int16_t(grid.first_x() * per_tile), int16_t(std::min((grid.last_x() + 1) * per_tile, columns_) - 1),
-               int16_t(grid.first_y() * per_tile), int16_t(std::min((grid.last_y() + 1) * per_tile, rows_) - 1)};
+    const auto last = [&](int last_tile, int pixels) {
+        return int16_t(std::min((last_tile + 1) * per_tile, (pixels + kCellPixels - 1) / kCellPixels) - 1);
+    };
+    active_ = {int16_t(grid.first_x() * per_tile), last(grid.last_x(), options.width), int16_t(grid.first_y() * per_tile),
+               last(grid.last_y(), options.height)};
+    depth_.resize(size_t(active_.count()));
+    cells_.resize(depth_.size());
 }
 
 SampleBox OcclusionBuffer::samples_of(int cell_x, int cell_y) const {
@@ -226,8 +225,9 @@ void OcclusionBuffer::draw_group(std::span<const Triangle> group, const CellRang
 bool OcclusionBuffer::hides(const CellRange& cells, float nearest) const {
     if (cells.count() == 0) return false;
     for (int y = cells.first_y; y <= cells.last_y; ++y) {
-        const float* const row = depth_.data() + index(0, y);
-        if (!std::all_of(row + cells.first_x, row + cells.last_x + 1, [&](float depth) { return depth > nearest; })) return false;
+        const float* const row = depth_.data() + index(cells.first_x, y);
+        const float* const end = depth_.data() + index(cells.last_x, y) + 1;
+        if (!std::all_of(row, end, [&](float depth) { return depth > nearest; })) return false;
     }
     return true;
 }

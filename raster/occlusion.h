@@ -63,15 +63,18 @@ class OcclusionBuffer {
     void draw_group(std::span<const Triangle> group, const CellRange& cells);
     SampleBox samples_of(int cell_x, int cell_y) const;
     static float depth_over(const Triangle& triangle, const SampleBox& samples);
-    size_t index(int cell_x, int cell_y) const { return size_t(cell_y) * size_t(columns_) + size_t(cell_x); }
+    /// Of an active cell.
+    size_t index(int cell_x, int cell_y) const {
+        const int columns = active_.last_x - active_.first_x + 1;
+        return size_t(cell_y - active_.first_y) * size_t(columns) + size_t(cell_x - active_.first_x);
+    }
 
     const FrameOptions& options_;
     const TileGrid& grid_;
-    int columns_, rows_;
     CellRange active_;
     int64_t cells_to_test_ = 0;
-    std::vector<float> depth_;
-    std::vector<Cell> cells_;
+    std::vector<float> depth_;  ///< of the active cells, row by row
+    std::vector<Cell> cells_;   ///< likewise
 };
 
 }  // namespace rawtexel::raster
