@@ -20,8 +20,10 @@
 #include "shading/texture_jitter-inl.h"
 #include "shading/tile.h"
 #include "shading/wave_draws-inl.h"
+#include "shading/wave_planes-inl.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <chrono>
 #include <optional>
@@ -55,6 +57,7 @@ class TileRenderer {
           tested_(scratch.listener && inputs.fetch_model == FetchModel::Quad ? whole_quads(inputs.visible, frame_.options())
                                                                              : inputs.visible),
           coverage_(inputs, tested_),
+          planes_(inputs, scratch),
           steps_(inputs) {}
 
     void render() {
@@ -74,7 +77,7 @@ class TileRenderer {
             find_offsets(sample);
             find_visible(sample);
             const auto drawn = Clock::now();
-            first_sample_ = k == 0;
+            planes_.begin_sample(k == 0);
             shade_sample(sample);
             if (demanded) demanded->tell_sample(sample, frame_offset_);
             scratch_.sums.add(sample, {scratch_.sample.data()->lane, scratch_.sample.size() * texunit::kWaveLanes});
@@ -105,15 +108,6 @@ class TileRenderer {
         scratch_.adaptive->add(scratch_.sample);
         const bool decides = count >= uint32_t(kFirstAdaptiveDecision) && std::has_single_bit(count);
         if (decides && count < uint32_t(inputs_.spp)) scratch_.adaptive->decide(scratch_.sums);
-    }
-
-    size_t wave_count() const { return size_t(tile_size_ * tile_size_ / texunit::kWaveLanes); }
-    WaveFloat& plane(int number, size_t wave) { return scratch_.sample[size_t(number) * wave_count() + wave]; }
-    WaveFloat& first_sample_plane(int number, size_t wave) { return scratch_.first_sample[size_t(number) * wave_count() + wave]; }
-    void store_vector(const WaveVector& value, WaveMask mask, int first_plane, size_t wave) {
-        store_wave(value.x, mask, plane(first_plane, wave));
-        store_wave(value.y, mask, plane(first_plane + 1, wave));
-        store_wave(value.z, mask, plane(first_plane + 2, wave));
     }
 
     void find_sequence_shifts() {
@@ -229,10 +223,9 @@ class TileRenderer {
     void tell_sampled(int x, int y) {
         alignas(64) float depth[texunit::kWaveLanes];
         load_wave(&scratch_.visibility.depth[size_t(y * tile_size_ + x)], tile_size_, depth);
-        const WaveFloat* const radiance = &plane(TilePlanes::kRadiance, wave_.index);
-        scratch_.fragment_listener->sampled({.block = {wave_.x, wave_.y, wave_.sample, wave_.inside},
-                                             .radiance = {radiance, radiance + wave_count(), radiance + 2 * wave_count()},
-                                             .depth = depth});
+        const std::array<const WaveFloat*, 3> radiance = planes_.radiance();
+        scratch_.fragment_listener->sampled(
+            {.block = {wave_.x, wave_.y, wave_.sample, wave_.inside}, .radiance = {radiance[0], radiance[1], radiance[2]}, .depth = depth});
     }
 
     /// Index of the wave whose upper left pixel is (x, y) of the tile.
@@ -255,7 +248,7 @@ class TileRenderer {
     /// The wave at pixel (x, y) of the tile.
     void shade_wave(int x, int y) {
         load_pixels(x, y);
-        clear_planes();
+        planes_.begin_wave(wave_.index);
         const WaveMask surface = wave_.inside & ~lanes_that_see(wave_.setup_index, raster::kNoTriangle);
         scratch_.totals.samples_shaded += uint64_t(std::popcount(surface));
         if (surface != 0) shade_surfaces(surface);
@@ -287,15 +280,6 @@ class TileRenderer {
         }
     }
 
-    /// Planes that only surfaces write start at nothing.
-    void clear_planes() {
-        for (int p = 3; p < inputs_.planes.count; ++p) plane(p, wave_.index) = {};
-        if (!first_sample_) return;
-        if (inputs_.planes.lod >= 0) first_sample_plane(inputs_.planes.lod, wave_.index) = {};
-        if (inputs_.planes.material >= 0)
-            std::fill_n(first_sample_plane(inputs_.planes.material, wave_.index).lane, texunit::kWaveLanes, -1.0f);
-    }
-
     /// One masked pass per draw that the wave sees.
     void shade_surfaces(WaveMask surface) {
         find_barycentrics(inputs_.derivatives, sample_block(), surface, weights_);
@@ -319,7 +303,7 @@ class TileRenderer {
     }
 
     /// Whether anything asks for a plain surface's position and normals.
-    bool wants_shape(const Material& material) const { return !material.unlit || inputs_.planes.hits >= 0 || watched(); }
+    bool wants_shape(const Material& material) const { return !material.unlit || planes_.keeps_layers() || watched(); }
 
     SampleBlock sample_block() const { return {frame_, wave_.setup_index, wave_.offset, wave_.x, wave_.y}; }
 
@@ -403,7 +387,7 @@ class TileRenderer {
     void shade_fragments(const DrawState& draw, WaveMask pass) {
         const MaterialState& material = *draw.material;
         WaveFloat lod = {};
-        const bool wants_lod = first_sample_ && inputs_.planes.lod >= 0;
+        const bool wants_lod = planes_.wants_lod();
         if (material.draws_level) draw_levels_of(draw, pass);
         look_up_maps(material, fragment_, pass, maps_, wants_lod ? &lod : nullptr);
         if (material.plans.draws()) {
@@ -413,28 +397,27 @@ class TileRenderer {
             shade_maps(draw, pass);
             if (watched()) tell_shaded(draw, pass, {});
         }
-        if (wants_lod) store_wave(lod, pass, first_sample_plane(inputs_.planes.lod, wave_.index));
+        if (wants_lod) planes_.store_lod(lod, pass);
     }
 
     void store_pass(const DrawState& draw, WaveMask pass) {
-        store_vector(radiance_, pass, TilePlanes::kRadiance, wave_.index);
-        if (inputs_.planes.hits >= 0) store_layers(draw, pass);
-        if (first_sample_ && inputs_.planes.material >= 0)
-            store_value(float(draw.material->index), pass, first_sample_plane(inputs_.planes.material, wave_.index));
+        planes_.store_radiance(radiance_, pass);
+        if (planes_.keeps_layers()) planes_.store_layers({draw, wave_.setup_index, weights_, fragment_, surface_}, pass);
+        planes_.store_material(draw.material->index, pass);
     }
 
     /// Of a branch that is blended with others before it is lit.
     void find_branch_surface(const DrawState& draw, WaveMask pass) {
         const MaterialState& material = *draw.material;
         WaveFloat lod = {};
-        const bool wants_lod = first_sample_ && inputs_.planes.lod >= 0;
+        const bool wants_lod = planes_.wants_lod();
         look_up_maps(material, fragment_, pass, maps_, wants_lod ? &lod : nullptr);
         if (!material.plans.averaged.empty()) {
             taps_.begin({&material, fragment_.coordinates, pass, wave_.x, wave_.y, wave_.sample, inputs_.seed, nullptr});
             average_taps(taps_, material.plans.averaged, maps_.slot);
             if (wants_lod) find_lod(material.maps[kBaseColor], pass, lod);
         }
-        if (wants_lod) store_wave(lod, pass, first_sample_plane(inputs_.planes.lod, wave_.index));
+        if (wants_lod) planes_.store_lod(lod, pass);
         find_surface(draw, fragment_, maps_, true, surface_);
         if (watched()) tell_shaded(draw, pass, {.lit = false});
     }
@@ -488,7 +471,7 @@ class TileRenderer {
         }
 
         const bool covers = layered && material.plans.shaded.holds(kBaseColor);
-        if (!covers && inputs_.planes.hits < 0 && is_one_tap(material)) {
+        if (!covers && !planes_.keeps_layers() && is_one_tap(material)) {
             for_each_shaded_tap(taps_, material.plans.shaded, maps_.slot, [&](const WaveFloat& weight, WaveMask lanes) HWY_ATTR {
                 shade_maps(draw, lanes);
                 if (watched()) tell_shaded(draw, lanes, {&weight, nullptr});
@@ -505,7 +488,7 @@ class TileRenderer {
             tap_sum_.add(*material.material, {&radiance_, &surface_, &weight, covers ? &alpha : nullptr, lanes});
         });
         tap_sum_.radiance(radiance_);
-        if (inputs_.planes.hits >= 0) tap_sum_.layers(surface_);
+        if (planes_.keeps_layers()) tap_sum_.layers(surface_);
     }
 
     /// Whether what is seen is one tap of weight 1, so that there is no sum.
@@ -533,48 +516,13 @@ class TileRenderer {
 
     void shade_background(WaveMask mask) {
         if (inputs_.background) {
-            store_value(inputs_.background->x, mask, plane(0, wave_.index));
-            store_value(inputs_.background->y, mask, plane(1, wave_.index));
-            store_value(inputs_.background->z, mask, plane(2, wave_.index));
+            planes_.store_radiance(*inputs_.background, mask);
         } else if (inputs_.lighting->environment) {
             find_directions();
             environment_radiance_lanes(*inputs_.lighting->environment, wave_.direction, mask, radiance_);
-            store_vector(radiance_, mask, TilePlanes::kRadiance, wave_.index);
+            planes_.store_radiance(radiance_, mask);
         } else {
-            for (int p = 0; p < 3; ++p) store_value(0.0f, mask, plane(p, wave_.index));
-        }
-    }
-
-    /// Layers that are means over the samples that saw a surface.
-    void store_layers(const DrawState& draw, WaveMask pass) {
-        const TilePlanes& planes = inputs_.planes;
-        store_value(1.0f, pass, plane(planes.hits, wave_.index));
-        if (planes.normal >= 0) store_vector(surface_.normal, pass, planes.normal, wave_.index);
-        if (planes.albedo >= 0) store_vector(surface_.base_color, pass, planes.albedo, wave_.index);
-        if (planes.depth >= 0) store_depth(pass);
-        if (planes.uv >= 0) store_uv(draw, pass);
-    }
-
-    void store_depth(WaveMask pass) {
-        const FloatLanes d;
-        const SpaceVector eye = set3(d, inputs_.rays.eye), forward = set3(d, inputs_.rays.forward);
-        WaveFloat depth;
-        for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d))
-            hn::Store(dot(sub(load3(d, fragment_.position, i), eye), forward), d, depth.lane + i);
-        store_wave(depth, pass, plane(inputs_.planes.depth, wave_.index));
-    }
-
-    /// Set 0 as the mesh has it, one lane after the other: a layer that few ask for.
-    void store_uv(const DrawState& draw, WaveMask pass) {
-        const auto& uv = draw.mesh->uv[0];
-        if (uv.empty()) return;
-        for (WaveMask lanes = pass; lanes != 0; lanes &= lanes - 1) {
-            const int lane = std::countr_zero(lanes);
-            const uint32_t* vertex = &draw.mesh->indices[size_t(frame_.triangle(wave_.setup_index[lane]).primitive) * 3];
-            const glm::vec2 value =
-                uv[vertex[0]] + (weights_.b1[lane] * (uv[vertex[1]] - uv[vertex[0]]) + weights_.b2[lane] * (uv[vertex[2]] - uv[vertex[0]]));
-            plane(inputs_.planes.uv, wave_.index)[lane] = value.x;
-            plane(inputs_.planes.uv + 1, wave_.index)[lane] = value.y;
+            planes_.store_radiance(glm::vec3(0.0f), mask);
         }
     }
 
@@ -584,9 +532,9 @@ class TileRenderer {
     int tile_x_, tile_y_, tile_size_, waves_x_;
     PixelRect tested_;  ///< whose fragments are asked whether they cover
     AlphaCoverage coverage_;
+    WavePlanes planes_;
     TextureSteps steps_;
     raster::SampleOffset frame_offset_;
-    bool first_sample_ = false;
     bool shapes_ = true;      ///< positions and normals are asked for
     bool in_branch_ = false;  ///< what is shaded is blended with other branches
     // Lanes that nobody asked for are computed along with their neighbours, so they hold numbers from the start.
