@@ -48,14 +48,16 @@ FlipComparison flip_comparison(const ComparableImage& test, const ComparableImag
     const Image shown_test = as_shown(test, comparison.kind), shown_reference = as_shown(reference, comparison.kind);
     const FlipImages images{shown_test.values, shown_reference.values, shown_test.width, shown_test.height};
     const auto parallel_for = shading::parallel_for_of(executor);
-    comparison.map = Image(images.width, images.height, 1);
+    std::vector<float> errors;
     if (comparison.kind == FlipKind::Hdr) {
         comparison.exposures = flip_exposures(shown_reference.values);
-        comparison.map.values = hdr_flip(images, *comparison.exposures, request.pixels_per_degree, parallel_for);
+        errors = hdr_flip(images, *comparison.exposures, request.pixels_per_degree, parallel_for);
     } else {
-        comparison.map.values = ldr_flip(images, request.pixels_per_degree, parallel_for);
+        errors = ldr_flip(images, request.pixels_per_degree, parallel_for);
     }
-    comparison.figures = pooled_flip(comparison.map.values);
+    comparison.figures = pooled_flip(errors);
+    comparison.map = Image(images.width, images.height, 1);
+    std::ranges::copy(errors, comparison.map.values.begin());
     return comparison;
 }
 

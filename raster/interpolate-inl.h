@@ -22,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Reads every plane coefficient of one triangle as the same value in all lanes.
 class BroadcastPlanes {
   public:
-    explicit BroadcastPlanes(const SetupTriangle& triangle) : planes_(interpolation_planes(triangle)) {}
+    explicit BroadcastPlanes(const InterpolationPlanes& planes) : planes_(planes) {}
     template <class D>
     auto a(D d, int i, size_t) const {
         return hn::Set(d, planes_.plane[i].a);
@@ -41,26 +41,24 @@ class BroadcastPlanes {
     }
 
   private:
-    InterpolationPlanes planes_;
+    const InterpolationPlanes& planes_;
 };
 
-/// Every lane its own triangle: the coefficients are laid out by lane first.
+/// At most 8 lanes, so that a vector never leaves its row.
+using SampleLanes = hn::CappedTag<double, 8>;
+
+/// Every lane its own triangle: the coefficients are laid out by lane first, as `interpolation_planes` has them.
 class PlanesByLane {
   public:
     PlanesByLane(const Frame& frame, const uint32_t* setup_index, uint32_t mask) {
-        InterpolationPlanes planes{};
-        uint32_t of_planes = kNoTriangle;
+        Corners corners;
         // Lanes without a triangle repeat what another lane has, so that no lane computes with garbage.
         const uint32_t spare = setup_index[std::countr_zero(mask)];
-        for (int lane = 0; lane < 32; ++lane) {
-            const uint32_t index = mask >> lane & 1u ? setup_index[lane] : spare;
-            if (index != of_planes) planes = interpolation_planes(frame.triangle(of_planes = index));
-            for (int i = 0; i < 3; ++i) {
-                a_[i][lane] = planes.plane[i].a;
-                b_[i][lane] = planes.plane[i].b;
-                c_[i][lane] = planes.plane[i].c;
-                scale_[i][lane] = planes.scale[i];
-            }
+        for (int lane = 0; lane < 32; ++lane) take_corners(frame.triangle(mask >> lane & 1u ? setup_index[lane] : spare), lane, corners);
+        for (size_t lane = 0; lane < 32; lane += hn::Lanes(SampleLanes())) find_edges(corners, lane);
+        for (uint32_t pieces = corners.pieces; pieces != 0; pieces &= pieces - 1) {
+            const int lane = std::countr_zero(pieces);
+            take_planes(interpolation_planes(frame.triangle(mask >> lane & 1u ? setup_index[lane] : spare)), lane);
         }
     }
     template <class D>
@@ -81,11 +79,71 @@ class PlanesByLane {
     }
 
   private:
+    /// Positions in the triangle's order, corner 0 first.
+    struct Corners {
+        alignas(64) int32_t x[3][32], y[3][32];
+        alignas(64) int64_t turned[32];  ///< -1 where corner 2 comes second
+        uint32_t pieces = 0;             ///< lanes that see a piece of what clipping cut
+    };
+
+    void take_corners(const SetupTriangle& triangle, int lane, Corners& corners) {
+        const size_t first = size_t(triangle.corner[1] == 0) + 2 * size_t(triangle.corner[2] == 0);
+        const size_t second = first == 2 ? 0 : first + 1, third = second == 2 ? 0 : second + 1;
+        const bool turned = triangle.corner[second] != 1;
+        const size_t order[] = {first, second, third};
+        for (size_t i = 0; i < 3; ++i) {
+            corners.x[i][lane] = triangle.x[order[i]];
+            corners.y[i][lane] = triangle.y[order[i]];
+        }
+        corners.turned[lane] = -int64_t{turned};
+        scale_[0][lane] = triangle.inverse_w[first];
+        scale_[1][lane] = triangle.inverse_w[turned ? third : second];
+        scale_[2][lane] = triangle.inverse_w[turned ? second : third];
+        corners.pieces |= uint32_t{triangle.bary_over_w != nullptr} << lane;
+    }
+
+    /// The exact lines through the edges that face the corners.
+    HWY_ATTR void find_edges(const Corners& corners, size_t lane) {
+        const SampleLanes d;
+        const hn::Rebind<int32_t, SampleLanes> di;
+        const hn::Rebind<int64_t, SampleLanes> dl;
+        using V = hn::Vec<SampleLanes>;
+        V x[3], y[3], a[3], b[3], c[3];
+        for (int i = 0; i < 3; ++i) {
+            x[i] = hn::PromoteTo(d, hn::Load(di, corners.x[i] + lane));
+            y[i] = hn::PromoteTo(d, hn::Load(di, corners.y[i] + lane));
+        }
+        for (int i = 0; i < 3; ++i) {
+            const int j = i == 2 ? 0 : i + 1, k = j == 2 ? 0 : j + 1;
+            const V dx = hn::Sub(x[k], x[j]), dy = hn::Sub(y[k], y[j]);
+            a[i] = hn::Neg(dy);
+            b[i] = dx;
+            c[i] = hn::Mul(hn::Sub(hn::Mul(dy, x[j]), hn::Mul(dx, y[j])), hn::Set(d, 1.0 / kSubpixelOne));
+        }
+        const auto turned = hn::MaskFromVec(hn::BitCast(d, hn::Load(dl, corners.turned + lane)));
+        const auto store = [&](const V(&value)[3], double(&to)[3][32]) HWY_ATTR __attribute__((always_inline)) {
+            hn::Store(value[0], d, to[0] + lane);
+            hn::Store(hn::IfThenElse(turned, value[2], value[1]), d, to[1] + lane);
+            hn::Store(hn::IfThenElse(turned, value[1], value[2]), d, to[2] + lane);
+        };
+        store(a, a_);
+        store(b, b_);
+        store(c, c_);
+    }
+
+    void take_planes(const InterpolationPlanes& planes, int lane) {
+        for (int i = 0; i < 3; ++i) {
+            a_[i][lane] = planes.plane[i].a;
+            b_[i][lane] = planes.plane[i].b;
+            c_[i][lane] = planes.plane[i].c;
+            scale_[i][lane] = planes.scale[i];
+        }
+    }
+
     alignas(64) double a_[3][32], b_[3][32], c_[3][32], scale_[3][32];
 };
 
-/// Sample points of a block in pixels, exact. At most 8 lanes, so a vector never leaves its row.
-using SampleLanes = hn::CappedTag<double, 8>;
+/// Sample points of a block in pixels, exact.
 
 /// The points of a block's lanes. Every term is a multiple of 2^-9, so that nothing rounds.
 HWY_INLINE void sample_points(const SampleOffset* offset, int x, int y, double* px, double* py) {
@@ -153,9 +211,9 @@ HWY_INLINE void clear_other_lanes(uint32_t mask, BarycentricWave& out) {
 }
 
 /// Barycentrics of the lanes of `mask` in the 8x4 block whose upper left pixel is (x, y): lane i lies in setup triangle setup_index[i], at
-/// offset[i] from its pixel's corner. Lanes outside the mask are left zero.
+/// offset[i] from its pixel's corner. Lanes outside the mask are left zero. `latest`: of this frame.
 HWY_ATTR inline void barycentric_wave(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y,
-                                      uint32_t mask, BarycentricWave& out) {
+                                      uint32_t mask, LatestPlanes& latest, BarycentricWave& out) {
     if (mask == 0) {
         out = {};
         return;
@@ -166,7 +224,7 @@ HWY_ATTR inline void barycentric_wave(const Frame& frame, const uint32_t* setup_
     const uint32_t first = setup_index[std::countr_zero(mask)];
     const size_t step = hn::Lanes(SampleLanes());
     if ((lanes_of_triangle(setup_index, first) & mask) == mask) {
-        const BroadcastPlanes planes(frame.triangle(first));
+        const BroadcastPlanes planes(latest.of(frame, first));
         for (size_t lane = 0; lane < 32; lane += step) barycentric_lanes(planes, px, py, lane, out);
     } else {
         const PlanesByLane planes(frame, setup_index, mask);

@@ -35,6 +35,19 @@ struct InterpolationPlanes {
 };
 InterpolationPlanes interpolation_planes(const SetupTriangle& triangle);
 
+/// The planes of one frame's triangle that was asked for last: waves side by side often see the same.
+class LatestPlanes {
+  public:
+    const InterpolationPlanes& of(const Frame& frame, uint32_t setup_index) {
+        if (setup_index != latest_) planes_ = interpolation_planes(frame.triangle(latest_ = setup_index));
+        return planes_;
+    }
+
+  private:
+    uint32_t latest_ = kNoTriangle;
+    InterpolationPlanes planes_{};
+};
+
 /// 32 lanes, structure of arrays; raster/interpolate-inl.h computes it in vectors, bit-equal to `barycentrics` rounded to float.
 struct alignas(64) BarycentricWave {
     float b1[32], b2[32], db1_dx[32], db2_dx[32], db1_dy[32], db2_dy[32];

@@ -37,7 +37,7 @@ std::vector<Sample> leading_channels(std::span<const Sample> samples, int channe
     return result;
 }
 
-void decode_integers(const ImageHeader& header, std::span<const std::byte> bytes, bool srgb, std::vector<float>& values) {
+void decode_integers(const ImageHeader& header, std::span<const std::byte> bytes, bool srgb, std::span<float> values) {
     const double maximum = header.type == SampleType::Unorm8 ? 255.0 : 65535.0;
     std::vector<float> colour(size_t(maximum) + 1), linear(colour.size());
     for (size_t code = 0; code < linear.size(); ++code) {
@@ -129,7 +129,8 @@ void write_float(const std::string& path, const shading::Image& image, std::span
     if (!layers.empty() && !open_exr) throw OutputError(path + ": further layers need an OpenEXR file (.exr)");
     if (!open_exr && is_writable_format(path) && !can_encode_alpha(path) && image.channels == 4) {
         shading::Image opaque(image.width, image.height, 3);
-        opaque.values = leading_channels(std::span<const float>(image.values), 4, 3);
+        const std::vector<float> colours = leading_channels(std::span<const float>(image.values), 4, 3);
+        std::ranges::copy(colours, opaque.values.begin());
         return write_float(path, opaque, layers, metadata, placement);
     }
     std::vector<float> values;

@@ -121,14 +121,18 @@ void SampleTree::sum(size_t first, std::span<double> sum) const {
     }
 }
 
+std::optional<SampleTree::ScaledSums> SampleTree::scaled_sums() const {
+    // A single range of floats holds a power of two of samples: the division is exact in float too.
+    if (ranges_.size() != 1 || ranges_[0].level > kFloatLevels) return std::nullopt;
+    return ScaledSums{ranges_[0].low, float(1.0 / double(samples()))};
+}
+
 void SampleTree::mean(size_t first, std::span<float> mean) const {
     const auto count = double(samples());
     assert(count > 0);
     assert(first + mean.size() <= width_);
-    // A single range of floats holds a power of two of samples: the division is exact in float too.
-    if (ranges_.size() == 1 && ranges_[0].level <= kFloatLevels) {
-        const float share = float(1.0 / count);
-        for (size_t i = 0; i < mean.size(); ++i) mean[i] = ranges_[0].low[first + i] * share;
+    if (const std::optional<ScaledSums> sums = scaled_sums()) {
+        for (size_t i = 0; i < mean.size(); ++i) mean[i] = sums->sum[first + i] * sums->share;
         return;
     }
     // In pieces that stay in the first-level cache.

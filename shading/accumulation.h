@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,14 @@ class SampleTree {
     void sum(size_t first, std::span<double> sum) const;
     /// The same divided by samples(), rounded to float. At least one sample is held (asserted).
     void mean(size_t first, std::span<float> mean) const;
+
+    /// Sums whose mean is sum*share, to the bit.
+    struct ScaledSums {
+        std::span<const float> sum;
+        float share;
+    };
+    /// Those of all entries, where one sum of floats holds all samples.
+    std::optional<ScaledSums> scaled_sums() const;
 
   private:
     /// Sum of the 2^level samples from `first` on; one of the two arrays is in use.

@@ -77,9 +77,11 @@ class MaterialBranches {
     template <class Corners>
     HWY_INLINE void interpolate_weights(const Mesh& mesh, const Corners& corners, const raster::BarycentricWave& weights) {
         const FloatLanes d;
-        for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d))
-            for (int c = 0; c < 4; ++c)
-                hn::Store(interpolate<4>(corners, load_weights(weights, i), &mesh.colors[0].x + c, i), d, mask_.channel[c].lane + i);
+        for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) {
+            FloatVector color[4];
+            interpolate<4>(corners, load_weights(weights, i), &mesh.colors[0].x, i, color);
+            for (int c = 0; c < 4; ++c) hn::Store(color[c], d, mask_.channel[c].lane + i);
+        }
     }
 
     static WaveMask lanes_above_zero(const WaveFloat& values) {

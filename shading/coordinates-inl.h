@@ -53,9 +53,10 @@ HWY_INLINE void corner_coordinates(const CoordinateState& state, const Mesh& mes
     const auto& set = mesh.uv[size_t(state.uv_set)];
     if (!set.empty()) {
         const float* values = &set[0].x;
-        u = {corners.template corner<2>(0, values, i), corners.template corner<2>(1, values, i), corners.template corner<2>(2, values, i)};
-        v = {corners.template corner<2>(0, values + 1, i), corners.template corner<2>(1, values + 1, i),
-             corners.template corner<2>(2, values + 1, i)};
+        FloatVector at[3][2];
+        for (int k = 0; k < 3; ++k) corners.template load<2>(k, values, i, at[k]);
+        u = {at[0][0], at[1][0], at[2][0]};
+        v = {at[0][1], at[1][1], at[2][1]};
     }
     transform_corners(state, u, v);
 }

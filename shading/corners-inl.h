@@ -8,6 +8,7 @@
 
 #include "raster/interpolate.h"
 #include "shading/lanes-inl.h"
+#include "texunit/gather-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rawtexel::shading {
@@ -17,10 +18,10 @@ namespace HWY_NAMESPACE {
 struct OneTriangle {
     const uint32_t* vertex;  ///< 3 indices
 
-    /// Component of attribute `values` (`kStride` floats a vertex) at corner `k`.
-    template <int kStride>
-    HWY_INLINE FloatVector corner(int k, const float* values, size_t) const {
-        return hn::Set(FloatLanes(), values[size_t(vertex[k]) * kStride]);
+    /// Components of attribute `values` (`kStride` floats a vertex) at corner `k`.
+    template <int kStride, int kCount>
+    HWY_INLINE void load(int k, const float* values, size_t, FloatVector (&out)[kCount]) const {
+        for (int c = 0; c < kCount; ++c) out[c] = hn::Set(FloatLanes(), values[size_t(vertex[k]) * kStride + size_t(c)]);
     }
 };
 
@@ -28,11 +29,11 @@ struct OneTriangle {
 struct TrianglePerLane {
     texunit::WaveInt vertex[3];  ///< lanes without a triangle hold a valid index
 
-    template <int kStride>
-    HWY_INLINE FloatVector corner(int k, const float* values, size_t i) const {
+    template <int kStride, int kCount>
+    HWY_INLINE void load(int k, const float* values, size_t i, FloatVector (&out)[kCount]) const {
         const IntLanes di;
         const auto index = hn::Mul(hn::Load(di, vertex[k].lane + i), hn::Set(di, kStride));
-        return hn::GatherIndex(FloatLanes(), values, index);
+        texunit::HWY_NAMESPACE::gather_records<kCount>(values, index, out);
     }
 };
 
@@ -51,23 +52,37 @@ HWY_INLINE FloatVector interpolate(const CornerWeights& w, FloatVector f0, Float
     return hn::Add(f0, hn::Add(hn::Mul(w.b1, hn::Sub(f1, f0)), hn::Mul(w.b2, hn::Sub(f2, f0))));
 }
 
+/// The first kCount components of attribute `values`.
+template <int kStride, int kCount, class Corners>
+HWY_INLINE void interpolate(const Corners& corners, const CornerWeights& w, const float* values, size_t i, FloatVector (&out)[kCount]) {
+    FloatVector f0[kCount], f1[kCount], f2[kCount];
+    corners.template load<kStride>(0, values, i, f0);
+    corners.template load<kStride>(1, values, i, f1);
+    corners.template load<kStride>(2, values, i, f2);
+    for (int c = 0; c < kCount; ++c) out[c] = interpolate(w, f0[c], f1[c], f2[c]);
+}
+
+/// Its first component.
 template <int kStride, class Corners>
 HWY_INLINE FloatVector interpolate(const Corners& corners, const CornerWeights& w, const float* values, size_t i) {
-    return interpolate(w, corners.template corner<kStride>(0, values, i), corners.template corner<kStride>(1, values, i),
-                       corners.template corner<kStride>(2, values, i));
+    FloatVector out[1];
+    interpolate<kStride>(corners, w, values, i, out);
+    return out[0];
 }
 
 /// Three consecutive components.
 template <int kStride, class Corners>
 HWY_INLINE SpaceVector interpolate_vector(const Corners& corners, const CornerWeights& w, const float* values, size_t i) {
-    return {interpolate<kStride>(corners, w, values, i), interpolate<kStride>(corners, w, values + 1, i),
-            interpolate<kStride>(corners, w, values + 2, i)};
+    FloatVector out[3];
+    interpolate<kStride>(corners, w, values, i, out);
+    return {out[0], out[1], out[2]};
 }
 
 template <int kStride, class Corners>
 HWY_INLINE SpaceVector corner_vector(const Corners& corners, int k, const float* values, size_t i) {
-    return {corners.template corner<kStride>(k, values, i), corners.template corner<kStride>(k, values + 1, i),
-            corners.template corner<kStride>(k, values + 2, i)};
+    FloatVector out[3];
+    corners.template load<kStride>(k, values, i, out);
+    return {out[0], out[1], out[2]};
 }
 
 /// Snapping to 1/256 pixel can put a covered sample slightly outside its triangle, and far outside a sliver: attributes stay between

@@ -22,6 +22,7 @@ struct SampleBlock {
     const uint32_t* setup_index;
     const raster::SampleOffset* offset;
     int x, y;  ///< upper left pixel
+    raster::LatestPlanes& latest;
 };
 
 /// Barycentrics of every lane's triangle at pixel (column, row) of the lane's 2x2 quad, where the lane's own offset puts the sample.
@@ -31,7 +32,7 @@ HWY_ATTR inline void quad_corner_barycentrics(const SampleBlock& block, int colu
         const int x = lane % texunit::kWaveWidth & 1, y = lane / texunit::kWaveWidth & 1;
         offset[lane] = {block.offset[lane].x + (column - x) * raster::kSampleOne, block.offset[lane].y + (row - y) * raster::kSampleOne};
     }
-    raster::HWY_NAMESPACE::barycentric_wave(block.frame, block.setup_index, offset, block.x, block.y, mask, out);
+    raster::HWY_NAMESPACE::barycentric_wave(block.frame, block.setup_index, offset, block.x, block.y, mask, block.latest, out);
 }
 
 /// Replaces the derivatives by the coarse differences of each lane's quad (Vulkan "Derivative Operations"): from its upper left pixel to
@@ -51,7 +52,7 @@ HWY_ATTR inline void take_quad_differences(const SampleBlock& block, uint32_t ma
 
 HWY_ATTR inline void find_barycentrics(const DerivativeRule& rule, const SampleBlock& block, uint32_t mask,
                                        raster::BarycentricWave& weights) {
-    raster::HWY_NAMESPACE::barycentric_wave(block.frame, block.setup_index, block.offset, block.x, block.y, mask, weights);
+    raster::HWY_NAMESPACE::barycentric_wave(block.frame, block.setup_index, block.offset, block.x, block.y, mask, block.latest, weights);
     if (rule.quad) take_quad_differences(block, mask, weights);
     if (rule.scale == 1.0f) return;
     for (float* const values : {weights.db1_dx, weights.db2_dx, weights.db1_dy, weights.db2_dy}) {

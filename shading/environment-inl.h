@@ -9,6 +9,7 @@
 #include "shading/brdf.h"
 #include "shading/environment_tables.h"
 #include "shading/vector3-inl.h"
+#include "texunit/gather-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rawtexel::shading {
@@ -90,8 +91,8 @@ HWY_INLINE Vector3<V> latlong_radiance(D d, const Environment::Tables& tables, c
     const auto i00 = texel(left, upper), i10 = texel(right, upper), i01 = texel(left, lower), i11 = texel(right, lower);
     const auto channel = [&](int c) HWY_ATTR {
         const float* base = tables.latlong.data() + c;
-        return mixed(d, at, hn::GatherIndex(d, base, i00), hn::GatherIndex(d, base, i10), hn::GatherIndex(d, base, i01),
-                     hn::GatherIndex(d, base, i11));
+        return mixed(d, at, texunit::HWY_NAMESPACE::gather_from(base, i00), texunit::HWY_NAMESPACE::gather_from(base, i10),
+                     texunit::HWY_NAMESPACE::gather_from(base, i01), texunit::HWY_NAMESPACE::gather_from(base, i11));
     };
     return {channel(0), channel(1), channel(2)};
 }
@@ -118,7 +119,8 @@ template <class D, class V = hn::Vec<D>, class VI = hn::Vec<hn::RebindToSigned<D
 HWY_INLINE Vector3<V> level_radiance(D d, const Environment::Tables& tables, const OctahedralPoint<V>& point, VI level) {
     const hn::RebindToSigned<D> di;
     const hn::RebindToUnsigned<D> du;
-    const VI extent = hn::GatherIndex(di, tables.extent.data(), level), start = hn::GatherIndex(di, tables.start.data(), level);
+    const VI extent = texunit::HWY_NAMESPACE::gather_from(tables.extent.data(), level),
+             start = texunit::HWY_NAMESPACE::gather_from(tables.start.data(), level);
     const V size = hn::ConvertTo(d, extent), half = hn::Set(d, 0.5f);
 
     // Texel centres lie at halves; the border's texel -1 is column 0 in memory.
@@ -135,7 +137,8 @@ HWY_INLINE Vector3<V> level_radiance(D d, const Environment::Tables& tables, con
     const auto* words = reinterpret_cast<const int32_t*>(tables.texels.data());
     const auto texel = [&](VI index) HWY_ATTR {
         const VI word = hn::Add(index, index);
-        const auto rg = hn::BitCast(du, hn::GatherIndex(di, words, word)), bg = hn::BitCast(du, hn::GatherIndex(di, words + 1, word));
+        const auto rg = hn::BitCast(du, texunit::HWY_NAMESPACE::gather_from(words, word)),
+                   bg = hn::BitCast(du, texunit::HWY_NAMESPACE::gather_from(words + 1, word));
         const auto red = hn::ShiftLeft<10>(hn::ShiftRight<11>(rg)), blue = hn::ShiftLeft<10>(hn::ShiftRight<11>(bg));
         const auto green = hn::Or(hn::ShiftLeft<20>(hn::And(rg, hn::Set(du, 0x7FFu))), hn::ShiftLeft<10>(hn::And(bg, hn::Set(du, 0x3FFu))));
         return Vector3<V>{hn::BitCast(d, red), hn::BitCast(d, green), hn::BitCast(d, blue)};

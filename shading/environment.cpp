@@ -45,7 +45,7 @@ Environment::Environment(const Image& latlong, Executor& executor) {
     const Image clean = clean_radiance(latlong);
     tables->width = clean.width;
     tables->height = clean.height;
-    tables->latlong = clean.values;
+    tables->latlong.assign(clean.values.begin(), clean.values.end());
     prefilter(clean, executor, *tables);
     tables_ = std::move(tables);
 }

@@ -55,7 +55,9 @@ HWY_INLINE void interpolate_tangents(const DrawState& draw, const Corners& corne
     for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) {
         const CornerWeights w = load_weights(weights, i);
         store3(d, unit_or(transform(linear, interpolate_vector<4>(corners, w, tangents, i)), none), out.tangent, i);
-        hn::Store(hn::Mul(handedness, corners.template corner<4>(0, tangents + 3, i)), d, out.bitangent_sign.lane + i);
+        FloatVector sign[1];
+        corners.template load<4>(0, tangents + 3, i, sign);
+        hn::Store(hn::Mul(handedness, sign[0]), d, out.bitangent_sign.lane + i);
     }
 }
 
@@ -93,7 +95,9 @@ HWY_INLINE void interpolate_colors(const Mesh& mesh, const Corners& corners, con
     const float* colors = &mesh.colors[0].x;
     for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) {
         const CornerWeights w = load_weights(weights, i);
-        for (int c = 0; c < 4; ++c) hn::Store(interpolate<4>(corners, w, colors + c, i), d, out.channel[c].lane + i);
+        FloatVector color[4];
+        interpolate<4>(corners, w, colors, i, color);
+        for (int c = 0; c < 4; ++c) hn::Store(color[c], d, out.channel[c].lane + i);
     }
 }
 

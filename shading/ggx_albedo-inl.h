@@ -37,8 +37,10 @@ HWY_INLINE GgxLobe<V> ggx_lobe(D d, const GgxReflectionTable& table, V n_dot_v, 
     const auto channel = [&](int c) HWY_ATTR {
         const float* row_start = table.values.data() + c;
         const float* below = row_start + Table::kChannels * Table::kViews;
-        return mixed(d, at, hn::GatherIndex(d, row_start, first), hn::GatherIndex(d, row_start + Table::kChannels, first),
-                     hn::GatherIndex(d, below, first), hn::GatherIndex(d, below + Table::kChannels, first));
+        return mixed(d, at, texunit::HWY_NAMESPACE::gather_from(row_start, first),
+                     texunit::HWY_NAMESPACE::gather_from(row_start + Table::kChannels, first),
+                     texunit::HWY_NAMESPACE::gather_from(below, first),
+                     texunit::HWY_NAMESPACE::gather_from(below + Table::kChannels, first));
     };
     return {channel(Table::kScale), channel(Table::kBias), channel(Table::kLean), channel(Table::kRoughness)};
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace rawtexel::shading {
@@ -13,7 +14,7 @@ class BatchStatistics {
   public:
     explicit BatchStatistics(size_t values) : mean_(values), squares_(values) {}
 
-    void add(const std::vector<float>& batch) {
+    void add(std::span<const float> batch) {
         ++batches_;
         for (size_t i = 0; i < mean_.size(); ++i) {
             const double value = double(batch[i]), before = value - mean_[i];
@@ -28,7 +29,7 @@ class BatchStatistics {
         for (const double squares : squares_) sum += squares / (batches_ - 1) / batches_;
         return std::sqrt(sum / double(squares_.size()));
     }
-    void store_mean(std::vector<float>& out) const {
+    void store_mean(std::span<float> out) const {
         std::ranges::transform(mean_, out.begin(), [](double value) { return float(value); });
     }
 

@@ -54,7 +54,7 @@ HWY_INLINE ReflectionProbe<V> reflection_probe(D d, const ReflectionProbeTable& 
         const auto* words = reinterpret_cast<const int32_t*>(table.words.data()) + word;
         const auto corner = [&](int view, int roughness) HWY_ATTR {
             const int32_t* start = words + Table::kNodeWords * (view + Table::kViews * roughness);
-            const auto packed = hn::BitCast(du, hn::GatherIndex(di, start, nodes.first));
+            const auto packed = hn::BitCast(du, texunit::HWY_NAMESPACE::gather_from(start, nodes.first));
             return Halves{hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<16>(packed))),
                           hn::ConvertTo(d, hn::BitCast(di, hn::And(packed, hn::Set(du, 0xFFFFu))))};
         };

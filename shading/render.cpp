@@ -156,7 +156,7 @@ void fill_count_layers(const RenderOptions& options, RenderResult& result) {
         return result.sample_counts.width > 0 ? result.sample_counts.values[pixel] : float(options.spp);
     };
     for (size_t i = 0; i < options.aovs.size(); ++i) {
-        std::vector<float>& values = result.layers[i].image.values;
+        PixelValues& values = result.layers[i].image.values;
         if (options.aovs[i] == Aov::Lines) values = result.fetches->pixel(PixelCount::LinesPixel).values;
         if (options.aovs[i] != Aov::Texels) continue;
         values = result.fetches->pixel(PixelCount::TexelsRequested).values;
@@ -167,7 +167,7 @@ void fill_count_layers(const RenderOptions& options, RenderResult& result) {
 }  // namespace
 
 std::optional<double> mean_samples(const RenderResult& result) {
-    const std::vector<float>& counts = result.sample_counts.values;
+    const PixelValues& counts = result.sample_counts.values;
     if (counts.empty()) return std::nullopt;
     return std::accumulate(counts.begin(), counts.end(), 0.0) / double(counts.size());
 }
@@ -197,7 +197,7 @@ RenderResult render(const Scene& scene, const Lighting& lighting, const RenderOp
 
     RenderResult result;
     result.times.geometry_s = seconds_since(start);
-    result.radiance = Image(visible.x1 - visible.x0, visible.y1 - visible.y0, 3);
+    result.radiance = Image::unwritten(visible.x1 - visible.x0, visible.y1 - visible.y0, 3);
     if (options.coverage) result.coverage = Image(result.radiance.width, result.radiance.height, 1);
     if (options.adaptive_error > 0) result.sample_counts = Image(result.radiance.width, result.radiance.height, 1);
     for (const Aov aov : options.aovs) result.layers.push_back(make_layer(aov, result.radiance.width, result.radiance.height));

@@ -8,6 +8,7 @@
 
 #include "shading/shadow_map.h"
 #include "shading/vector3-inl.h"
+#include "texunit/gather-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace rawtexel::shading {
@@ -107,7 +108,7 @@ HWY_INLINE V hidden_row(D d, const ShadowMap& map, const ReceiverPlane<V>& plane
         const V plane_xy = hn::Add(plane_y, hn::Mul(hn::Sub(hn::Add(column, half), plane.x), plane.dz_dx));
         const auto inside = hn::And(row_inside, hn::And(hn::Ge(column, zero), hn::Lt(column, extent)));
         const auto index = hn::Add(row_start, hn::ConvertTo(di, hn::IfThenElseZero(inside, column)));
-        const V stored = hn::GatherIndex(d, map.depth.data(), index);
+        const V stored = texunit::HWY_NAMESPACE::gather_from(map.depth.data(), index);
         const auto nearer = hn::And(inside, hn::Gt(stored, hn::Max(plane_xy, zero)));
         hidden = hn::Add(hidden, hn::IfThenElseZero(nearer, hn::Mul(weight, row_weight)));
     };

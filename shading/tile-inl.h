@@ -305,7 +305,7 @@ class TileRenderer {
     /// Whether anything asks for a plain surface's position and normals.
     bool wants_shape(const Material& material) const { return !material.unlit || planes_.keeps_layers() || watched(); }
 
-    SampleBlock sample_block() const { return {frame_, wave_.setup_index, wave_.offset, wave_.x, wave_.y}; }
+    SampleBlock sample_block() { return {frame_, wave_.setup_index, wave_.offset, wave_.x, wave_.y, latest_planes_}; }
 
     void find_fragment(const DrawState& draw, const DrawLanes& seen, const PlaneLanes* planes = nullptr) {
         with_corners(frame_, *draw.mesh, wave_.setup_index, seen,
@@ -539,6 +539,7 @@ class TileRenderer {
     bool in_branch_ = false;  ///< what is shaded is blended with other branches
     // Lanes that nobody asked for are computed along with their neighbours, so they hold numbers from the start.
     PixelWave wave_{};
+    raster::LatestPlanes latest_planes_;
     raster::BarycentricWave weights_{};
     FragmentWave fragment_{};
     MapColors maps_{};

@@ -1,5 +1,7 @@
 #include "shading/tile_resolve.h"
 
+#include "shading/interleave.h"
+
 #include <algorithm>
 #include <cassert>
 
@@ -53,8 +55,7 @@ void TileResolver::begin(int tile_x, int tile_y) {
 
 void TileResolver::resolve_radiance(int tile_x, int tile_y, const SampleTree& sums, RenderResult& result) {
     begin(tile_x, tile_y);
-    sums.mean(size_t(TilePlanes::kRadiance) * pixels_, values(result.radiance.channels));
-    put(result.radiance);
+    put_mean(sums, size_t(TilePlanes::kRadiance) * pixels_, result.radiance);
 }
 
 void TileResolver::resolve(int tile_x, int tile_y, const TileScratch& tile, std::span<const Aov> aovs, RenderResult& result) {
@@ -82,8 +83,15 @@ void TileResolver::resolve_layer(Aov aov, const TileScratch& tile, Image& image)
 
 void TileResolver::put_means(const TileScratch& tile, int first_plane, Image& image) {
     const size_t first = size_t(first_plane) * pixels_;
+    if (!tile.adaptive) return put_mean(tile.sums, first, image);
     tile.sums.mean(first, values(image.channels));
-    if (tile.adaptive) tile.adaptive->put_means(first, values(image.channels));
+    tile.adaptive->put_means(first, values(image.channels));
+    put(image);
+}
+
+void TileResolver::put_mean(const SampleTree& sums, size_t first, Image& image) {
+    if (const std::optional<SampleTree::ScaledSums> scaled = sums.scaled_sums()) return put(&scaled->sum[first], scaled->share, image);
+    sums.mean(first, values(image.channels));
     put(image);
 }
 
@@ -115,37 +123,28 @@ void TileResolver::put_first_sample(const TileScratch& tile, int plane, Image& i
     put(image);
 }
 
-void TileResolver::put(Image& image) const {
-    switch (image.channels) {
-        case 1: return put_channels<1>(image);
-        case 2: return put_channels<2>(image);
-        case 3: return put_channels<3>(image);
-        default: assert(false);
-    }
-}
-
-template <int kChannels>
-void TileResolver::put_channels(Image& image) const {
-    const int waves_x = tile_size_ / kWaveWidth;
-    const int x0 = rect_.x0 - origin_x_, x1 = rect_.x1 - origin_x_;
-    for (int y = rect_.y0 - origin_y_; y < rect_.y1 - origin_y_; ++y) {
-        float* out = image.pixel(rect_.x0 - inputs_.visible.x0, origin_y_ + y - inputs_.visible.y0);
-        const float* row = &values_[size_t(y / kWaveHeight * waves_x * kWaveLanes + y % kWaveHeight * kWaveWidth)];
-        for (int wave = x0 / kWaveWidth; wave * kWaveWidth < x1; ++wave) {
-            const float* value = row + size_t(wave * kWaveLanes);
-            if (wave * kWaveWidth >= x0 && (wave + 1) * kWaveWidth <= x1) {
-                // All eight, which compilers turn into vectors.
-                for (int i = 0; i < kWaveWidth; ++i)
-                    for (int channel = 0; channel < kChannels; ++channel)
-                        out[i * kChannels + channel] = value[size_t(channel) * pixels_ + size_t(i)];
-                out += kWaveWidth * kChannels;
-                continue;
+void TileResolver::put(const float* planes, float factor, Image& image) const {
+    const size_t channels = size_t(image.channels), waves_x = size_t(tile_size_ / kWaveWidth);
+    const PixelRect rect{rect_.x0 - origin_x_, rect_.y0 - origin_y_, rect_.x1 - origin_x_, rect_.y1 - origin_y_};
+    float* const out = image.pixel(rect_.x0 - inputs_.visible.x0, rect_.y0 - inputs_.visible.y0);
+    const size_t out_stride = size_t(image.width) * channels;
+    const auto put_columns = [&](int first, int last) {
+        for (int y = rect.y0; y < rect.y1; ++y) {
+            for (int x = first; x < last; ++x) {
+                const size_t wave = size_t(y / kWaveHeight) * waves_x + size_t(x / kWaveWidth);
+                const float* const value = planes + wave * kWaveLanes + size_t(y % kWaveHeight * kWaveWidth + x % kWaveWidth);
+                float* const pixel = out + size_t(y - rect.y0) * out_stride + size_t(x - rect.x0) * channels;
+                for (size_t channel = 0; channel < channels; ++channel) pixel[channel] = value[channel * pixels_] * factor;
             }
-            const int first = std::max(x0 - wave * kWaveWidth, 0), last = std::min(x1 - wave * kWaveWidth, kWaveWidth);
-            for (int i = first; i < last; ++i)
-                for (int channel = 0; channel < kChannels; ++channel) *out++ = value[size_t(channel) * pixels_ + size_t(i)];
         }
-    }
+    };
+    // Whole waves lie between the two.
+    const int first_whole = std::min((rect.x0 + kWaveWidth - 1) / kWaveWidth * kWaveWidth, rect.x1);
+    const int last_whole = std::max(rect.x1 / kWaveWidth * kWaveWidth, first_whole);
+    if (rect.x0 < first_whole) put_columns(rect.x0, first_whole);
+    interleave_waves({planes, pixels_, waves_x, image.channels}, {first_whole, rect.y0, last_whole, rect.y1}, factor,
+                     out + size_t(first_whole - rect.x0) * channels, out_stride);
+    if (last_whole < rect.x1) put_columns(last_whole, rect.x1);
 }
 
 }  // namespace rawtexel::shading

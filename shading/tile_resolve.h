@@ -32,10 +32,10 @@ class TileResolver {
     void put_sample_counts(const TileScratch& tile, Image& image);
     void put_first_sample(const TileScratch& tile, int plane, Image& image);
     std::span<float> values(int channels) { return std::span(values_).first(size_t(channels) * pixels_); }
-    /// values_ to the image, a plane per channel.
-    void put(Image& image) const;
-    template <int kChannels>
-    void put_channels(Image& image) const;
+    void put_mean(const SampleTree& sums, size_t first, Image& image);
+    /// The tile's visible pixels of `planes`, times `factor`, to the image, a plane per channel.
+    void put(const float* planes, float factor, Image& image) const;
+    void put(Image& image) const { put(values_.data(), 1.0f, image); }
 
     const TileInputs& inputs_;
     int tile_size_;

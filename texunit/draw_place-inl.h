@@ -1,6 +1,7 @@
 // Where a draw picks its texel: the probe and the level, each drawn with a number of its own, in a texture of any shape.
 #include "texunit/draw.h"
 #include "texunit/footprint-inl.h"
+#include "texunit/gather-inl.h"
 #include "texunit/probes-inl.h"
 #include "texunit/solid-inl.h"
 
@@ -40,7 +41,7 @@ HWY_INLINE void draw_probes(const ProbeTable& table, bool equal_weights, const P
             const auto index = hn::Set(di, n);
             const auto takes = hn::And(hn::RebindMask(di, random >= before), hn::Not(last < index));
             drawn = hn::IfThenElse(takes, index, drawn);
-            before = hn::Add(before, hn::GatherIndex(d, table.weight.data(), hn::Add(first, hn::Min(index, last))));
+            before = hn::Add(before, gather_from(table.weight.data(), hn::Add(first, hn::Min(index, last))));
         }
         hn::Store(drawn, di, probe.lane + i);
     }
@@ -69,7 +70,7 @@ HWY_NOINLINE inline void move_to_probes(const SamplerState& sampler, const Probe
         const auto count = hn::Load(di, probes.count.lane + i);
         const auto index = hn::Add(hn::Mul(count, hn::Set(di, kMostProbes)), hn::Load(di, probe.lane + i));
         // A single probe lies at the centre.
-        const auto place = hn::GatherIndex(d, table.place.data(), index);
+        const auto place = gather_from(table.place.data(), index);
         const auto moved = [&](Wrap wrap, const WaveFloat& from, const WaveFloat& axis) HWY_ATTR {
             return fused_multiply_add(place, hn::Load(d, axis.lane + i), in_period(wrap, hn::Load(d, from.lane + i)));
         };

@@ -1,5 +1,6 @@
 // The second stage of a lookup: raw texels as linear RGBA. First *ensure* that the blocks are there (scalar and rare), then *gather* (plain
 // loads from one base pointer by 32-bit index), then unpack fields to numbers.
+#include "texunit/packed_texels-inl.h"
 #include "texunit/select-inl.h"
 #include "texunit/texture.h"
 
@@ -177,7 +178,7 @@ HWY_INLINE void gather_words(const std::byte* texels, const WaveInt& index, Wave
     const auto* const base = reinterpret_cast<const uint32_t*>(texels) + word;
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(di)) {
         const auto at = hn::ShiftLeft<hwy::CeilLog2(words)>(hn::Load(di, index.lane + i));
-        hn::Store(hn::GatherIndex(d, base, at), d, out.lane + i);
+        hn::Store(gather_from(base, at), d, out.lane + i);
     }
 }
 
@@ -194,7 +195,7 @@ HWY_INLINE void unpack_field(const TexelLayout& layout, int c, int shift, const 
     if (layout.table[c] != nullptr) {
         for (int tap = 0; tap < n; ++tap) {
             for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-                hn::Store(hn::GatherIndex(d, layout.table[c], field_at(tap, i)), d, out[tap].lane + i);
+                hn::Store(gather_from(layout.table[c], field_at(tap, i)), d, out[tap].lane + i);
             }
         }
         return;
@@ -255,8 +256,27 @@ HWY_INLINE void unpack_halves(const Wave<uint32_t> (&words)[n], WaveFloat* low, 
     }
 }
 
+/// Texels whose fields are known, unpacked in registers.
+template <PackedFields fields, int n>
+HWY_INLINE void gather_known(const TexelLayout& layout, const std::byte* texels, const WaveInt (&index)[n], const ChannelPointers& out) {
+    const FloatTag d;
+    const PackedDecoder<fields> decoder(layout);
+    const auto* const base = reinterpret_cast<const uint32_t*>(texels);
+    for (int tap = 0; tap < n; ++tap) {
+        for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
+            FloatVec value[4];
+            decoder.values(gather_from(base, hn::Load(IntTag(), index[tap].lane + i)), value);
+            for (int c = 0; c < 4; ++c) hn::Store(value[c], d, out[c][tap].lane + i);
+        }
+    }
+}
+
 template <int n>
 HWY_INLINE void gather_packed32(const TexelLayout& layout, const std::byte* texels, const WaveInt (&index)[n], const ChannelPointers& out) {
+    if (layout.fields != PackedFields::Any) {
+        with_fields(layout.fields, [&](auto constant) HWY_ATTR { gather_known<decltype(constant)::value>(layout, texels, index, out); });
+        return;
+    }
     Wave<uint32_t> words[n];
     for (int tap = 0; tap < n; ++tap) gather_words<1, 0>(texels, index[tap], words[tap]);
     for (int c = 0; c < 4; ++c) {
@@ -305,7 +325,7 @@ HWY_INLINE void gather_float4(const std::byte* texels, const WaveInt (&index)[n]
     for (int tap = 0; tap < n; ++tap) {
         for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
             const auto at = hn::ShiftLeft<2>(hn::Load(di, index[tap].lane + i));
-            for (int c = 0; c < 4; ++c) hn::Store(hn::GatherIndex(d, base + c, at), d, out[c][tap].lane + i);
+            for (int c = 0; c < 4; ++c) hn::Store(gather_from(base + c, at), d, out[c][tap].lane + i);
         }
     }
 }

@@ -48,13 +48,18 @@ HWY_INLINE FloatVec power_of_two(IntVec n) { return hn::BitCast(FloatTag(), hn::
 
 inline constexpr int kBeyondAllLevels = 4096;  ///< exponent of a footprint that has no size
 
+/// The derivatives of lanes i.. in texels, not scaled.
+HWY_INLINE ScaledJacobian texel_jacobian(const WaveCoordinates& at, size_t i, FloatVec width, FloatVec height) {
+    const FloatTag d;
+    return {hn::Mul(hn::Load(d, at.dudx.lane + i), width), hn::Mul(hn::Load(d, at.dvdx.lane + i), height),
+            hn::Mul(hn::Load(d, at.dudy.lane + i), width), hn::Mul(hn::Load(d, at.dvdy.lane + i), height), hn::Zero(IntTag())};
+}
+
 /// The derivatives of lanes i.. in texels. A derivative that is not finite makes the footprint round and larger than every level.
 HWY_INLINE ScaledJacobian scale_jacobian(const WaveCoordinates& at, size_t i, FloatVec width, FloatVec height) {
     const FloatTag d;
     const IntTag di;
-    ScaledJacobian j;
-    j.sx = hn::Mul(hn::Load(d, at.dudx.lane + i), width), j.tx = hn::Mul(hn::Load(d, at.dvdx.lane + i), height);
-    j.sy = hn::Mul(hn::Load(d, at.dudy.lane + i), width), j.ty = hn::Mul(hn::Load(d, at.dvdy.lane + i), height);
+    ScaledJacobian j = texel_jacobian(at, i, width, height);
     const auto finite = hn::And(hn::And(hn::IsFinite(j.sx), hn::IsFinite(j.tx)), hn::And(hn::IsFinite(j.sy), hn::IsFinite(j.ty)));
     const auto largest = hn::Max(hn::Max(hn::Abs(j.sx), hn::Abs(j.tx)), hn::Max(hn::Abs(j.sy), hn::Abs(j.ty)));
     const auto exponent = hn::Sub(hn::ShiftRight<23>(hn::BitCast(di, hn::IfThenElseZero(finite, largest))), hn::Set(di, 127));
@@ -190,10 +195,12 @@ HWY_INLINE Lod quantise(Lod lod) {
     return carry({lod.level, hn::Mul(round_small(hn::Mul(lod.fraction, hn::Set(d, 256.0f))), hn::Set(d, 1.0f / 256))});
 }
 
-/// What turns lambda into levels, the same for all lanes.
+inline constexpr float kMostLambda = 150.0f;  ///< beyond what floats can be long
+
+/// What turns lambda into levels, the same for all lanes. Bounds that the levels there are impose anyway do not count as such.
 struct LodRules {
     LodValue bias, least, most;
-    bool biased, quantised;
+    bool biased, bounded, quantised;
     MipMode mip;
     int32_t last_level;
 };
@@ -202,6 +209,7 @@ HWY_INLINE LodRules lod_rules(const LevelTable& table, const SamplerState& sampl
             split_lod(sampler.min_lod),
             split_lod(sampler.max_lod),
             sampler.lod_bias != 0.0f,
+            sampler.min_lod > 0.0f || !(sampler.max_lod >= kMostLambda),
             sampler.precision == Precision::Gpu,
             sampler.mip,
             table.levels - 1};
@@ -210,9 +218,11 @@ HWY_INLINE LodRules lod_rules(const LevelTable& table, const SamplerState& sampl
 /// lambda + bias, clamped to [min_lod, max_lod] (Vulkan "Level-of-Detail Operation"; D3D11.3 7.18.11: the lower bound wins).
 HWY_INLINE Lod bound_lod(const LodRules& rules, Lod lod) {
     if (rules.biased) lod = add(lod, rules.bias);
-    const Lod least = spread(rules.least), most = spread(rules.most);
-    lod = select(less(most, lod), most, lod);
-    lod = select(less(lod, least), least, lod);
+    if (rules.bounded) {
+        const Lod least = spread(rules.least), most = spread(rules.most);
+        lod = select(less(most, lod), most, lod);
+        lod = select(less(lod, least), least, lod);
+    }
     return rules.quantised ? quantise(lod) : lod;
 }
 
@@ -273,7 +283,11 @@ HWY_INLINE void select_levels(const LevelTable& table, const SamplerState& sampl
     choice.magnify = 0;
     choice.mixes = false;
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        const ScaledJacobian j = scale_jacobian(at, i, width, height);
+        ScaledJacobian j = texel_jacobian(at, i, width, height);
+        // Where squares neither over- nor underflow, scaling by powers of two would change no bit. What is not a number is not moderate.
+        const auto both2 = hn::Add(squared_length(j.sx, j.tx), squared_length(j.sy, j.ty));
+        const auto moderate = hn::And(both2 >= hn::Set(d, 0x1p-60f), both2 <= hn::Set(d, 0x1p60f));
+        if (HWY_UNLIKELY(!hn::AllTrue(d, moderate))) j = scale_jacobian(at, i, width, height);
         const auto longer2 = exact ? largest_singular_value(j).squared : hn::Max(squared_length(j.sx, j.tx), squared_length(j.sy, j.ty));
         const Lod lod = bound_lod(rules, lod_of_squared(longer2, j.exponent));
         choice.magnify |= wave_mask(di, magnifies(lod), i);

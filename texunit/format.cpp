@@ -109,6 +109,17 @@ TexelLayout coded_layout(StorageClass storage, int channels, int bits, int denom
     return layout;
 }
 
+PackedFields fields_of(const TexelLayout& layout) {
+    const auto is_byte = [&](int c, const float* table) {
+        return layout.mask[c] == 0xFF && layout.shift[c] == 8 * c && layout.denominator[c] == 255 && layout.table[c] == table;
+    };
+    const auto are_bytes = [&](const float* table) {
+        return is_byte(0, table) && is_byte(1, table) && is_byte(2, table) && is_byte(3, nullptr);
+    };
+    if (layout.storage != StorageClass::Packed32 || layout.is_signed) return PackedFields::Any;
+    return are_bytes(nullptr) ? PackedFields::Unorm8 : are_bytes(srgb8_table()) ? PackedFields::Srgb8 : PackedFields::Any;
+}
+
 TexelLayout signed_layout(TexelLayout layout) {
     layout.is_signed = true;
     return layout;
@@ -201,7 +212,11 @@ using Layouts = std::array<TexelLayout, kFormatCount>;
 
 Layouts make_layouts() {
     Layouts layouts;
-    for (const FormatInfo& about : kFormats) layouts[size_t(about.format)] = make_layout(about.format);
+    for (const FormatInfo& about : kFormats) {
+        TexelLayout& layout = layouts[size_t(about.format)];
+        layout = make_layout(about.format);
+        layout.fields = fields_of(layout);
+    }
     return layouts;
 }
 
@@ -211,6 +226,7 @@ Layouts make_rounded_layouts() {
     for (const FormatInfo& about : kFormats) {
         TexelLayout& layout = layouts[size_t(about.format)];
         if (has_bc_rounding(about.format)) layout = rounded_layout(about, layout.storage);
+        layout.fields = fields_of(layout);
     }
     return layouts;
 }

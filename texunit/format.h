@@ -84,6 +84,13 @@ Format with_srgb(Format format, bool srgb);
 /// Bytes of one level or layer of `width` x `height` texels as a file stores it (blocks rounded up). No overflow up to 2^20 texels an axis.
 uint64_t stored_bytes(Format format, int width, int height);
 
+/// What the fields of most textures are, which can be unpacked faster than the layout alone tells.
+enum class PackedFields : uint8_t {
+    Any,
+    Unorm8,  ///< four bytes, each a quotient
+    Srgb8,   ///< three bytes of sRGB codes, and one that is a quotient
+};
+
 /// How the fields of a decoded texel become numbers. For the packed classes channel c of a word is
 /// field = (word >> shift[c]) & mask[c]  (sign-extended from the mask's width when `is_signed`), then
 /// value = table[c] ? table[c][field] : max(field*scale_hi[c] + field*scale_lo[c], -1) + bias[c].
@@ -98,6 +105,7 @@ uint64_t stored_bytes(Format format, int width, int height);
 struct TexelLayout {
     StorageClass storage;
     bool is_signed;
+    PackedFields fields;                      ///< of Packed32
     uint8_t shift[4];                         ///< bits, 0..63
     uint32_t mask[4];                         ///< 0 for a channel that is not stored
     float scale_hi[4], scale_lo[4], bias[4];  ///< bias is 1 for the missing alpha, else 0

@@ -1,5 +1,6 @@
 // Anisotropic probes in one pass, texels in registers throughout: for 8-bit and block formats whose kernel is bilinear, which is where
 // anisotropic filtering spends its time. The mean is taken over the stored numerators and scaled at the end.
+#include "texunit/packed_texels-inl.h"
 #include "texunit/probe_blocks-inl.h"
 
 #include <hwy/highway.h>
@@ -67,82 +68,44 @@ HWY_INLINE ProbeTexels probe_texels(const ProbeLevel& level, FloatVec place) {
     return texels_of(level.offset, left, right, upper, lower, x, y);
 }
 
-using WordVec = hn::Vec<hn::RebindToUnsigned<IntTag>>;
-
-/// How numbers lie in a texel's word: a byte each, as in RGBA8 without a table, or as the layout says.
-enum class PackedFields { Bytes, Any };
-
-HWY_INLINE bool has_byte_fields(const TexelLayout& layout) {
-    for (int c = 0; c < 4; ++c) {
-        if (layout.mask[c] != 0xFF || layout.shift[c] != 8 * c || layout.table[c] != nullptr) return false;
-    }
-    return !layout.is_signed;
-}
-
-/// The stored number of channel c: a numerator, or what the format's table says.
-template <PackedFields fields, int c>
-HWY_INLINE FloatVec packed_number(const TexelLayout& layout, WordVec word) {
-    const FloatTag d;
-    const IntTag di;
-    const hn::RebindToUnsigned<IntTag> du;
-    if constexpr (fields == PackedFields::Bytes) {
-        const auto shifted = c == 0 ? word : hn::ShiftRight<8 * c>(word);
-        return hn::ConvertTo(d, hn::BitCast(di, c == 3 ? shifted : hn::And(shifted, hn::Set(du, 0xFF))));
-    }
-    const auto field = hn::BitCast(di, hn::And(hn::ShiftRightSame(word, layout.shift[c]), hn::Set(du, layout.mask[c])));
-    if (layout.table[c] != nullptr) return hn::GatherIndex(d, layout.table[c], field);
-    if (!layout.is_signed) return hn::ConvertTo(d, field);
-    // Flipping the sign bit and subtracting it extends the sign; two codes mean -1 (D3D11.3 3.2.3.4).
-    const auto sign = hn::Set(di, int32_t((layout.mask[c] + 1) >> 1));
-    const auto value = hn::Sub(hn::Xor(field, sign), sign);
-    return hn::ConvertTo(d, hn::Max(value, hn::Sub(hn::Set(di, 1), sign)));
-}
-
 struct PackedWords {
     WordVec upper_left, upper_right, lower_left, lower_right;
     FloatVec x, y;
 };
 
-/// One channel of a probe, bilinear, in stored numbers.
-template <PackedFields fields, int c>
-HWY_INLINE FloatVec filter_packed(const TexelLayout& layout, const PackedWords& words) {
-    const auto number = [&](WordVec word) HWY_ATTR { return packed_number<fields, c>(layout, word); };
-    const auto above = lerp(words.x, number(words.upper_left), number(words.upper_right));
-    const auto below = lerp(words.x, number(words.lower_left), number(words.lower_right));
-    return lerp(words.y, above, below);
+/// A probe, bilinear, in stored numbers.
+template <PackedFields fields>
+HWY_INLINE void filter_packed(const PackedDecoder<fields>& decoder, const PackedWords& words, FloatVec (&mean)[4]) {
+    FloatVec left[4], right[4], above[4];
+    decoder.numbers(words.upper_left, left);
+    decoder.numbers(words.upper_right, right);
+    for (int c = 0; c < 4; ++c) above[c] = lerp(words.x, left[c], right[c]);
+    decoder.numbers(words.lower_left, left);
+    decoder.numbers(words.lower_right, right);
+    for (int c = 0; c < 4; ++c) mean[c] = lerp(words.y, above[c], lerp(words.x, left[c], right[c]));
 }
 
 /// The running mean over probes of one level, in stored numbers.
 template <bool repeats, PackedFields fields>
 HWY_INLINE void sample_packed_level(const Texture& texture, const ProbeLevel& level, const ProbePlaces& places, FloatVec (&mean)[4]) {
-    const hn::RebindToUnsigned<IntTag> du;
-    const TexelLayout& layout = texture.texel_layout();
+    const PackedDecoder<fields> decoder(texture.texel_layout());
     const auto* const base = reinterpret_cast<const uint32_t*>(texture.texels());
     auto m0 = hn::Zero(FloatTag()), m1 = m0, m2 = m0, m3 = m0;
     for (int n = 0; n < places.most; ++n) {
         const ProbeTexels at = probe_texels<repeats>(level, places.place(n));
-        const PackedWords words{hn::GatherIndex(du, base, at.upper_left),
-                                hn::GatherIndex(du, base, at.upper_right),
-                                hn::GatherIndex(du, base, at.lower_left),
-                                hn::GatherIndex(du, base, at.lower_right),
+        const PackedWords words{gather_from(base, at.upper_left),
+                                gather_from(base, at.upper_right),
+                                gather_from(base, at.lower_left),
+                                gather_from(base, at.lower_right),
                                 at.x,
                                 at.y};
         // The share of probe 0 is 1, so the mean starts with it.
         const auto share = places.share(n);
-        m0 = lerp(share, m0, filter_packed<fields, 0>(layout, words));
-        m1 = lerp(share, m1, filter_packed<fields, 1>(layout, words));
-        m2 = lerp(share, m2, filter_packed<fields, 2>(layout, words));
-        m3 = lerp(share, m3, filter_packed<fields, 3>(layout, words));
+        FloatVec probe[4];
+        filter_packed(decoder, words, probe);
+        m0 = lerp(share, m0, probe[0]), m1 = lerp(share, m1, probe[1]), m2 = lerp(share, m2, probe[2]), m3 = lerp(share, m3, probe[3]);
     }
     mean[0] = m0, mean[1] = m1, mean[2] = m2, mean[3] = m3;
-}
-
-/// From the stored numbers of channel c to its value.
-HWY_INLINE FloatVec packed_value(const TexelLayout& layout, int c, FloatVec number) {
-    const FloatTag d;
-    if (layout.mask[c] == 0) return hn::Set(d, layout.bias[c]);
-    if (layout.table[c] != nullptr) return number;
-    return fused_multiply_add(number, hn::Set(d, layout.scale_hi[c]), hn::Mul(number, hn::Set(d, layout.scale_lo[c])));
 }
 
 /// All probes of the wave: means of both levels, mixed. Mixing their means is mixing every probe, for a lane's fraction is one.
@@ -150,6 +113,7 @@ template <bool repeats, PackedFields fields>
 HWY_NOINLINE void sample_packed_wave(const Texture& texture, const SamplerState& sampler, const LevelChoice& choice,
                                      const ProbeChoice& probes, const WavePosition& centre, WaveColor& out) {
     const FloatTag d;
+    const PackedDecoder<fields> decoder(texture.texel_layout());
     const ProbeTable& table = sampler.probe_variance > 0 ? gaussian_probes() : uniform_probes();
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
         const ProbePlaces places(table, hn::Load(IntTag(), probes.count.lane + i));
@@ -162,7 +126,7 @@ HWY_NOINLINE void sample_packed_wave(const Texture& texture, const SamplerState&
                                                  coarse);
             for (int c = 0; c < 4; ++c) mean[c] = lerp(fraction, mean[c], coarse[c]);
         }
-        for (int c = 0; c < 4; ++c) hn::Store(packed_value(texture.texel_layout(), c, mean[c]), d, out.channel[c].lane + i);
+        for (int c = 0; c < 4; ++c) hn::Store(decoder.value(c, mean[c]), d, out.channel[c].lane + i);
     }
 }
 
@@ -178,11 +142,11 @@ HWY_INLINE void sample_packed_probes(Texture& texture, const SamplerState& sampl
         prepare_packed_probes(texture, sampler, choice, probes, centre, mask, count);
     }
     const bool repeats = sampler.wrap_s == Wrap::Repeat && sampler.wrap_t == Wrap::Repeat;
-    const bool bytes = has_byte_fields(texture.texel_layout());
-    if (repeats && bytes) return sample_packed_wave<true, PackedFields::Bytes>(texture, sampler, choice, probes, centre, out);
-    if (repeats) return sample_packed_wave<true, PackedFields::Any>(texture, sampler, choice, probes, centre, out);
-    if (bytes) return sample_packed_wave<false, PackedFields::Bytes>(texture, sampler, choice, probes, centre, out);
-    sample_packed_wave<false, PackedFields::Any>(texture, sampler, choice, probes, centre, out);
+    with_fields(texture.texel_layout().fields, [&](auto constant) HWY_ATTR {
+        constexpr PackedFields kFields = decltype(constant)::value;
+        if (repeats) return sample_packed_wave<true, kFields>(texture, sampler, choice, probes, centre, out);
+        sample_packed_wave<false, kFields>(texture, sampler, choice, probes, centre, out);
+    });
 }
 
 }  // namespace HWY_NAMESPACE

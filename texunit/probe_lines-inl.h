@@ -135,13 +135,13 @@ struct ProbePlaces {
     HWY_INLINE IntVec at(int n) const { return hn::Add(row, hn::Min(hn::Set(IntTag(), n), last)); }
     HWY_INLINE FloatVec place(int n) const {
         const FloatTag d;
-        return alike ? hn::Set(d, table->place[size_t(kMostProbes * most + n)]) : hn::GatherIndex(d, table->place.data(), at(n));
+        return alike ? hn::Set(d, table->place[size_t(kMostProbes * most + n)]) : gather_from(table->place.data(), at(n));
     }
     HWY_INLINE FloatVec share(int n) const {
         const FloatTag d;
         if (alike) return hn::Set(d, table->share[size_t(kMostProbes * most + n)]);
         const auto past = hn::RebindMask(d, last < hn::Set(IntTag(), n));
-        return hn::IfThenZeroElse(past, hn::GatherIndex(d, table->share.data(), at(n)));
+        return hn::IfThenZeroElse(past, gather_from(table->share.data(), at(n)));
     }
 };
 

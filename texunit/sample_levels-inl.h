@@ -2,6 +2,7 @@
 #include "texunit/count-inl.h"
 #include "texunit/filter-inl.h"
 #include "texunit/footprint-inl.h"
+#include "texunit/packed_bilinear-inl.h"
 #include "texunit/wide_filter-inl.h"
 
 #include <hwy/highway.h>
@@ -57,6 +58,9 @@ HWY_INLINE void sample_flat_level(Texture& texture, const SamplerState& sampler,
     TapWave<W> taps;
     select_taps(texture.levels(), sampler, at, level, nearest, taps);
     if constexpr (Count::kReads) {
+        if constexpr (storage == StorageClass::Packed32 && W == 2) {
+            if (!taps.leaves) return filter_packed_bilinear(texture, taps, out);
+        }
         TexelWave<W * W> texels;
         fetch<storage>(texture, sampler.border, at.cube(), taps, texels);
         filter<storage>(taps, texels, out);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 namespace rawtexel::texunit {
@@ -14,10 +15,15 @@ std::array<double, 255> build_thresholds() {
     return thresholds;
 }
 
-std::array<float, 256> build_decoding() {
-    std::array<float, 256> values;
-    for (int i = 0; i < 256; ++i) values[size_t(i)] = float(srgb_to_linear(i / 255.0));
-    return values;
+Srgb8Tables build_decoding() {
+    Srgb8Tables tables;
+    for (int i = 0; i < 256; ++i) {
+        tables.whole[i] = float(srgb_to_linear(i / 255.0));
+        const auto bits = std::bit_cast<uint32_t>(tables.whole[i]);
+        tables.low[i] = uint16_t(bits);
+        tables.high[i] = uint16_t(bits >> 16);
+    }
+    return tables;
 }
 
 }  // namespace
@@ -36,9 +42,11 @@ uint8_t encode_srgb8(float linear) {
     return uint8_t(std::upper_bound(thresholds.begin(), thresholds.end(), double(linear)) - thresholds.begin());
 }
 
-const float* srgb8_table() {
-    static const std::array<float, 256> table = build_decoding();
-    return table.data();
+const Srgb8Tables& srgb8_tables() {
+    static const Srgb8Tables tables = build_decoding();
+    return tables;
 }
+
+const float* srgb8_table() { return srgb8_tables().whole; }
 
 }  // namespace rawtexel::texunit

@@ -15,7 +15,15 @@ double linear_to_srgb(double linear);
 /// Values outside [0, 1] are clamped, NaN gives 0. The linear value of any code comes back as that code.
 uint8_t encode_srgb8(float linear);
 
-/// 256 linear values, one for each 8-bit code, each the correctly rounded float.
+/// Linear values of the 8-bit codes, each the correctly rounded float, and the halves of their bits, which vector registers look up.
+struct Srgb8Tables {
+    alignas(64) float whole[256];
+    alignas(64) uint16_t low[256];   ///< the lower 16 bits
+    alignas(64) uint16_t high[256];  ///< the upper 16 bits
+};
+const Srgb8Tables& srgb8_tables();
+
+/// srgb8_tables().whole
 const float* srgb8_table();
 
 }  // namespace rawtexel::texunit

@@ -33,25 +33,26 @@ class TexelReader {
   public:
     using V = hn::Vec<FloatTag>;
 
-    explicit TexelReader(const Texture& texture) : layout_(texture.texel_layout()), texels_(texture.texels()) {}
+    explicit TexelReader(const Texture& texture)
+        : layout_(texture.texel_layout()), srgb8_(texture.texel_layout()), texels_(texture.texels()) {}
 
     HWY_INLINE void read(hn::Vec<IntTag> index, V (&texel)[4]) const {
-        const FloatTag d;
         const hn::RebindToUnsigned<IntTag> du;
         if constexpr (storage == StorageClass::Float4) {
             const auto* const base = reinterpret_cast<const float*>(texels_);
             const auto at = hn::ShiftLeft<2>(index);
-            for (int c = 0; c < 4; ++c) texel[c] = hn::GatherIndex(d, base + c, at);
+            for (int c = 0; c < 4; ++c) texel[c] = gather_from(base + c, at);
             return;
         }
         const auto* const base = reinterpret_cast<const uint32_t*>(texels_);
         if constexpr (storage == StorageClass::Packed32) {
-            const auto word = hn::GatherIndex(du, base, index);
+            const auto word = gather_from(base, index);
+            if (!plain && layout_.fields == PackedFields::Srgb8) return srgb8_.numbers(word, texel);
             for (int c = 0; c < 4; ++c) texel[c] = field(c, layout_.shift[c], word);
             return;
         }
         const auto at = hn::ShiftLeft<1>(index);
-        const auto low = hn::GatherIndex(du, base, at), high = hn::GatherIndex(du, base + 1, at);
+        const auto low = gather_from(base, at), high = gather_from(base + 1, at);
         if constexpr (storage == StorageClass::Half4) {
             const auto lower = [&](auto word) HWY_ATTR { return half_to_float_v(hn::And(word, hn::Set(du, 0xFFFFu))); };
             texel[0] = lower(low), texel[1] = half_to_float_v(hn::ShiftRight<16>(low));
@@ -82,7 +83,7 @@ class TexelReader {
         if (!plain && mask == 0) return hn::Zero(d);
         const auto bits = hn::BitCast(di, hn::And(hn::ShiftRightSame(word, shift), hn::Set(du, mask)));
         if constexpr (plain) return hn::ConvertTo(d, bits);
-        if (layout_.table[c] != nullptr) return hn::GatherIndex(d, layout_.table[c], bits);
+        if (layout_.table[c] != nullptr) return gather_from(layout_.table[c], bits);
         if (!layout_.is_signed) return hn::ConvertTo(d, bits);
         // Flipping the sign bit and subtracting it extends the sign. Two codes mean -1 (D3D11.3 3.2.3.4).
         const auto sign = hn::Set(di, int32_t((mask + 1) >> 1));
@@ -91,6 +92,7 @@ class TexelReader {
     }
 
     const TexelLayout& layout_;
+    const PackedDecoder<PackedFields::Srgb8> srgb8_;
     const std::byte* texels_;
 };
 

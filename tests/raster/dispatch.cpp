@@ -18,7 +18,8 @@ void draw_tile_here(const Frame& frame, int tile_x, int tile_y, const TileSample
 
 void interpolate_wave_here(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y, uint32_t mask,
                            BarycentricWave& out) {
-    barycentric_wave(frame, setup_index, offset, x, y, mask, out);
+    LatestPlanes latest;
+    barycentric_wave(frame, setup_index, offset, x, y, mask, latest, out);
 }
 
 }  // namespace HWY_NAMESPACE
