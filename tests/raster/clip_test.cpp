@@ -93,6 +93,39 @@ TEST(Clip, KeepsCoverageRightForVerticesBehindTheEyeAndAtExtremeW) {
     sum.tell();
 }
 
+/// Cuts of edges so long that a coordinate of the cut is the difference of huge ones: it must not leave its plane, or the edge between two
+/// such cuts crosses the frame.
+TEST(Clip, KeepsCutsOfHugeEdgesOnTheirPlanes) {
+    const glm::vec3 far[3] = {{1.8052520919719594e+28f, -2.6904611280319121e+26f, 0.5f},
+                              {-1.1879824931979838e+26f, -3.9262515866771271e+25f, 0.5f},
+                              {6.1853654661580666e+20f, 1.1640801578460759e+21f, 0.5f}};
+    EXPECT_GT(expect_right_side(far, clip_from_pixels(kSize, kSize)).inside, 4000u);
+    const glm::vec3 without_w[3] = {{0.7205359935760498f, 0.78201413154602051f, -0.0f},
+                                    {-1.6079726219177246f, -1.9114632606506348f, 1e-30f},
+                                    {-1.2683906601022348e-30f, -2.4359774134067667e-31f, -0.0f}};
+    EXPECT_GT(expect_right_side(without_w, kClipFromXyw).inside, 4000u);
+
+    std::mt19937 random(9);
+    uint64_t cuts = 0;
+    double farthest = 0;
+    for (int i = 0; i < 20000 * stress_scale(); ++i) {
+        std::array<ScreenVertex, 3> triangle;
+        for (ScreenVertex& v : triangle) {
+            const auto any = [&] { return double(uniform(random, -1, 1)) * std::pow(10.0, double(uniform(random, 0, 30))); };
+            v = {any(), any(), 0.5, 1.0};
+        }
+        ClipPolygon polygon(triangle);
+        polygon.clip((1u << kClipPlanes) - 1);
+        for (const ScreenVertex& v : polygon.vertices()) {
+            farthest = std::max({farthest, std::abs(v.x / v.w) - double(kGuardBand), std::abs(v.y / v.w) - double(kGuardBand)});
+            ++cuts;
+        }
+    }
+    EXPECT_LE(farthest, 1e-9);
+    tell_tested(cuts, "cuts");
+    tell_worst_case("pixels_beyond_the_guard_band", farthest);
+}
+
 TEST(Clip, DiscardsAndCountsTrianglesWithVerticesThatAreNotFinite) {
     const float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     for (const float bad : {infinity, -infinity, nan}) {

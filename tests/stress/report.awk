@@ -56,6 +56,7 @@ NR == FNR {
     count = line + 0
     unit = line
     sub(/^[0-9]+ /, "", unit)
+    if (!(unit in tested)) unit_at[++units] = unit
     tested[unit] += count
 }
 
@@ -94,7 +95,8 @@ END {
         if (!(order[i] in shown)) printf "       %s %s: %s\n", part[1], part[2], worst[order[i]]
     }
     print "Tested:"
-    for (unit in tested) if (unit != "samples") printf "  %18s  %s\n", grouped(tested[unit]), unit
+    for (i = 1; i <= units; ++i)
+        if (unit_at[i] != "samples") printf "  %18s  %s\n", grouped(tested[unit_at[i]]), unit_at[i]
     printf "  %18s  samples, each held against an oracle", grouped(tested["samples"])
     if (tested["samples"] >= goal) print ": the " grouped(goal) " that are asked for are reached"
     else print ": FEWER than the " grouped(goal) " that are asked for" (whole ? "" : " of the whole suite at full size")
