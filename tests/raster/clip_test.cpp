@@ -2,6 +2,7 @@
 #include "raster/clip.h"
 #include "tests/raster/drawing.h"
 #include "tests/reference/raster/exact_interpolation.h"
+#include "tests/stress/worst_case.h"
 #include "tests/stress_scale.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,15 @@ constexpr int kSize = 64;
 const glm::mat4 kClipFromXyw = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0.5f, 1, 0, 0, 0, 0};
 
 struct Agreement {
-    int inside = 0, outside = 0;
+    uint64_t inside = 0, outside = 0;
+
+    void operator+=(const Agreement& other) { inside += other.inside, outside += other.outside; }
+    void tell() const {
+        EXPECT_GT(inside, 10000u);
+        EXPECT_GT(outside, 10000u);
+        tell_tested(inside + outside);
+        tell_worst_case("samples_on_the_wrong_side", 0);
+    }
 };
 
 /// Every sample that is clear of the triangle's border is covered if and only if it lies inside.
@@ -54,26 +63,23 @@ Agreement expect_right_side(const glm::vec3 (&corner)[3], const glm::mat4& clip_
 TEST(Clip, KeepsCoverageRightForVerticesFarBeyondTheGuardBand) {
     std::mt19937 random(1);
     Agreement sum;
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < 400 * stress_scale(); ++i) {
         glm::vec3 corner[3];
         for (glm::vec3& v : corner) {
             const float far = std::pow(10.0f, uniform(random, 0, 30)), angle = uniform(random, 0, 6.2831853f);
             v = {32 + far * std::cos(angle), 32 + far * std::sin(angle), 0.5f};
         }
-        const Agreement one = expect_right_side(corner, clip_from_pixels(kSize, kSize));
-        sum.inside += one.inside;
-        sum.outside += one.outside;
+        sum += expect_right_side(corner, clip_from_pixels(kSize, kSize));
         ASSERT_FALSE(HasFailure()) << "triangle " << i;
     }
-    EXPECT_GT(sum.inside, 10000);
-    EXPECT_GT(sum.outside, 10000);
+    sum.tell();
 }
 
 TEST(Clip, KeepsCoverageRightForVerticesBehindTheEyeAndAtExtremeW) {
     std::mt19937 random(2);
     const float w[] = {1e-30f, -1e-30f, 0.0f, -0.0f, 1.0f, -1.0f, 0.25f, 1e30f, 1e-3f};
     Agreement sum;
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 2000 * stress_scale(); ++i) {
         glm::vec3 corner[3];
         for (glm::vec3& v : corner) {
             v.z = w[random() % std::size(w)];
@@ -81,13 +87,43 @@ TEST(Clip, KeepsCoverageRightForVerticesBehindTheEyeAndAtExtremeW) {
             v.x = scale * uniform(random, -2, 2);
             v.y = scale * uniform(random, -2, 2);
         }
-        const Agreement one = expect_right_side(corner, kClipFromXyw);
-        sum.inside += one.inside;
-        sum.outside += one.outside;
+        sum += expect_right_side(corner, kClipFromXyw);
         ASSERT_FALSE(HasFailure()) << "triangle " << i;
     }
-    EXPECT_GT(sum.inside, 10000);
-    EXPECT_GT(sum.outside, 10000);
+    sum.tell();
+}
+
+/// Cuts of edges so long that a coordinate of the cut is the difference of huge ones: it must not leave its plane, or the edge between two
+/// such cuts crosses the frame.
+TEST(Clip, KeepsCutsOfHugeEdgesOnTheirPlanes) {
+    const glm::vec3 far[3] = {{1.8052520919719594e+28f, -2.6904611280319121e+26f, 0.5f},
+                              {-1.1879824931979838e+26f, -3.9262515866771271e+25f, 0.5f},
+                              {6.1853654661580666e+20f, 1.1640801578460759e+21f, 0.5f}};
+    EXPECT_GT(expect_right_side(far, clip_from_pixels(kSize, kSize)).inside, 4000u);
+    const glm::vec3 without_w[3] = {{0.7205359935760498f, 0.78201413154602051f, -0.0f},
+                                    {-1.6079726219177246f, -1.9114632606506348f, 1e-30f},
+                                    {-1.2683906601022348e-30f, -2.4359774134067667e-31f, -0.0f}};
+    EXPECT_GT(expect_right_side(without_w, kClipFromXyw).inside, 4000u);
+
+    std::mt19937 random(9);
+    uint64_t cuts = 0;
+    double farthest = 0;
+    for (int i = 0; i < 20000 * stress_scale(); ++i) {
+        std::array<ScreenVertex, 3> triangle;
+        for (ScreenVertex& v : triangle) {
+            const auto any = [&] { return double(uniform(random, -1, 1)) * std::pow(10.0, double(uniform(random, 0, 30))); };
+            v = {any(), any(), 0.5, 1.0};
+        }
+        ClipPolygon polygon(triangle);
+        polygon.clip((1u << kClipPlanes) - 1);
+        for (const ScreenVertex& v : polygon.vertices()) {
+            farthest = std::max({farthest, std::abs(v.x / v.w) - double(kGuardBand), std::abs(v.y / v.w) - double(kGuardBand)});
+            ++cuts;
+        }
+    }
+    EXPECT_LE(farthest, 1e-9);
+    tell_tested(cuts, "cuts");
+    tell_worst_case("pixels_beyond_the_guard_band", farthest);
 }
 
 TEST(Clip, DiscardsAndCountsTrianglesWithVerticesThatAreNotFinite) {
@@ -103,6 +139,7 @@ TEST(Clip, DiscardsAndCountsTrianglesWithVerticesThatAreNotFinite) {
             EXPECT_EQ(frame.triangle_count(), 0u);
         }
     }
+    tell_worst_case("triangles_let_through", 0);
 }
 
 bool same_bits(const ScreenVertex& p, const ScreenVertex& q) { return std::memcmp(&p, &q, sizeof(p)) == 0; }
@@ -114,7 +151,7 @@ TEST(Clip, CutsASharedEdgeAtTheSameBitsFromBothSides) {
         return ScreenVertex{any(), any(), any(), any()};
     };
     int cut_edges = 0;
-    for (int i = 0; i < 20000; ++i) {
+    for (int i = 0; i < 20000 * stress_scale(); ++i) {
         const ScreenVertex a = vertex(), b = vertex();
         // Without a third corner that differs in place, all that is left of the edge a-b stands in both polygons.
         ClipPolygon one({a, b, a}), other({b, a, b});
@@ -129,6 +166,8 @@ TEST(Clip, CutsASharedEdgeAtTheSameBitsFromBothSides) {
         }
     }
     EXPECT_GT(cut_edges, 1000);
+    tell_tested(uint64_t(cut_edges), "cut_edges");
+    tell_worst_case("cuts_that_differ", 0);
 }
 
 /// The faces of a box, each a grid of n x n cells cut along random diagonals.
@@ -162,7 +201,7 @@ Mesh box_mesh(std::mt19937& random, const glm::vec3& half, int n) {
 
 TEST(Clip, LeavesAClosedMeshClosedAroundACameraInsideIt) {
     std::mt19937 random(4);
-    uint64_t clipped = 0;
+    uint64_t samples = 0, clipped = 0;
     for (int round = 0; round < 120 * stress_scale(); ++round) {
         const float size = std::exp2(uniform(random, -2, 18));
         const glm::vec3 half = size * glm::vec3(uniform(random, 0.5f, 2), uniform(random, 0.5f, 2), uniform(random, 0.5f, 2));
@@ -181,14 +220,17 @@ TEST(Clip, LeavesAClosedMeshClosedAroundACameraInsideIt) {
             const auto wrong = std::find_if(hits.begin(), hits.end(), [](int n) { return n != 1; });
             ASSERT_EQ(wrong, hits.end()) << *wrong << " hits at pixel " << (wrong - hits.begin()) % kSize << ","
                                          << (wrong - hits.begin()) / kSize << " in round " << round;
+            samples += hits.size();
         }
     }
     EXPECT_GT(clipped, 100u);
+    tell_tested(samples);
+    tell_worst_case("samples_not_hit_once", 0);
 }
 
 TEST(Clip, SlicesAMeshAtTheNearPlaneWithoutHolesOrDoubleHits) {
     std::mt19937 random(5);
-    uint64_t clipped = 0, covered = 0;
+    uint64_t samples = 0, clipped = 0, covered = 0;
     for (int round = 0; round < 60 * stress_scale(); ++round) {
         // A floor that passes under the eye, a little deeper than the near plane or not even that.
         const float below = uniform(random, 0.01f, 2), near_plane = 0.5f, extent = 1000;
@@ -226,6 +268,7 @@ TEST(Clip, SlicesAMeshAtTheNearPlaneWithoutHolesOrDoubleHits) {
                 const reference::Side second = second_half.side_of(x + 0.5, y + 0.5, 1.0 / 64);
                 if (first == reference::Side::OnBorder || second == reference::Side::OnBorder) continue;
                 const int expected = first == reference::Side::Inside || second == reference::Side::Inside;
+                ++samples;
                 covered += uint64_t(expected);
                 ASSERT_EQ(hits[size_t(y * kSize + x)], expected) << "pixel " << x << "," << y << " in round " << round;
             }
@@ -233,6 +276,8 @@ TEST(Clip, SlicesAMeshAtTheNearPlaneWithoutHolesOrDoubleHits) {
     }
     EXPECT_GT(clipped, 100u);
     EXPECT_GT(covered, 10000u);
+    tell_tested(samples);
+    tell_worst_case("samples_off", 0);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Which sample points a triangle covers, held against 128-bit integers, and meshes without cracks or double hits.
 #include "tests/raster/drawing.h"
 #include "tests/reference/raster/exact_coverage.h"
+#include "tests/stress/worst_case.h"
 #include "tests/stress_scale.h"
 
 #include <gtest/gtest.h>
@@ -22,14 +23,25 @@ FrameOptions frame_options(int width, int height) {
     return options;
 }
 
-/// Holds the picture of the mesh's triangles against the exact coverage of their snapped vertices, sample by sample.
-void expect_exact_coverage(const Mesh& mesh, const FrameOptions& options, const SamplePattern& pattern) {
+/// How many were held against exact integers, and how many of them are covered.
+struct ExactSamples {
+    uint64_t tested = 0, covered = 0;
+
+    void tell() const {
+        EXPECT_GT(covered, 0u);
+        tell_tested(tested);
+        tell_worst_case("covered", covered);
+        tell_worst_case("differences_from_128_bits", 0);
+    }
+};
+
+/// Holds pictures of each of the mesh's triangles, by every pattern, against the exact coverage of its snapped vertices.
+void expect_exact_coverage(const Mesh& mesh, const FrameOptions& options, ExactSamples& samples) {
     for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
         Draw draw = mesh.draw(clip_from_pixels(options.width, options.height));
         draw.indices += t;
         draw.triangle_count = 1;
         const Frame frame(options, {&draw, 1});
-        const Picture picture = draw_frame(frame, pattern);
         const glm::vec3* v[3];
         reference::SnappedTriangle snapped;
         for (int i = 0; i < 3; ++i) {
@@ -37,15 +49,20 @@ void expect_exact_coverage(const Mesh& mesh, const FrameOptions& options, const 
             snapped.x[i] = std::lrint(v[i]->x * 256.0);
             snapped.y[i] = std::lrint(v[i]->y * 256.0);
         }
-        for (int y = 0; y < options.height; ++y) {
-            for (int x = 0; x < options.width; ++x) {
-                const SampleOffset offset = pattern.at(x, y);
-                const bool expected = reference::covers(snapped, int64_t{x} * 512 + offset.x, int64_t{y} * 512 + offset.y);
-                const bool drawn = picture.id[size_t(y) * size_t(options.width) + size_t(x)] != kNoTriangle;
-                ASSERT_EQ(drawn, expected) << "pixel " << x << "," << y << " offset " << offset.x << "," << offset.y << " triangle ("
-                                           << v[0]->x << "," << v[0]->y << ") (" << v[1]->x << "," << v[1]->y << ") (" << v[2]->x << ","
-                                           << v[2]->y << ")";
+        for (const SamplePattern& pattern : sample_patterns()) {
+            const Picture picture = draw_frame(frame, pattern);
+            for (int y = 0; y < options.height; ++y) {
+                for (int x = 0; x < options.width; ++x) {
+                    const SampleOffset offset = pattern.at(x, y);
+                    const bool expected = reference::covers(snapped, int64_t{x} * 512 + offset.x, int64_t{y} * 512 + offset.y);
+                    const bool drawn = picture.id[size_t(y) * size_t(options.width) + size_t(x)] != kNoTriangle;
+                    ASSERT_EQ(drawn, expected) << "pixel " << x << "," << y << " offset " << offset.x << "," << offset.y << " triangle ("
+                                               << v[0]->x << "," << v[0]->y << ") (" << v[1]->x << "," << v[1]->y << ") (" << v[2]->x << ","
+                                               << v[2]->y << ")";
+                    samples.covered += expected;
+                }
             }
+            samples.tested += picture.id.size();
         }
     }
 }
@@ -56,14 +73,17 @@ glm::vec3 random_point(std::mt19937& random, float x, float y, float spread) {
 
 TEST(Coverage, EqualsExactIntegersForRandomTrianglesOfEverySize) {
     std::mt19937 random(1);
+    ExactSamples samples;
     for (const float size : {0.02f, 0.1f, 0.7f, 3.0f, 20.0f, 150.0f, 1000.0f, 5000.0f}) {
         Mesh mesh;
-        for (int i = 0; i < 40; ++i) {
+        for (int i = 0; i < 40 * stress_scale(); ++i) {
             const float x = uniform(random, -3, 67), y = uniform(random, -3, 35);
             mesh.add(random_point(random, x, y, size), random_point(random, x, y, size), random_point(random, x, y, size));
         }
-        for (const SamplePattern& pattern : sample_patterns()) expect_exact_coverage(mesh, frame_options(64, 32), pattern);
+        expect_exact_coverage(mesh, frame_options(64, 32), samples);
+        if (HasFatalFailure()) return;
     }
+    samples.tell();
 }
 
 TEST(Coverage, EqualsExactIntegersForVerticesOnSamplePointsAndAxisParallelEdges) {
@@ -71,14 +91,16 @@ TEST(Coverage, EqualsExactIntegersForVerticesOnSamplePointsAndAxisParallelEdges)
     // Vertices on multiples of half a pixel put many sample points exactly on edges and on vertices.
     const auto lattice = [&] { return glm::vec3(float(int(random() % 36) - 2) * 0.5f, float(int(random() % 36) - 2) * 0.5f, 0.5f); };
     Mesh mesh;
-    for (int i = 0; i < 600; ++i) mesh.add(lattice(), lattice(), lattice());
-    for (const SamplePattern& pattern : sample_patterns()) expect_exact_coverage(mesh, frame_options(16, 16), pattern);
+    for (int i = 0; i < 600 * stress_scale(); ++i) mesh.add(lattice(), lattice(), lattice());
+    ExactSamples samples;
+    expect_exact_coverage(mesh, frame_options(16, 16), samples);
+    samples.tell();
 }
 
 TEST(Coverage, EqualsExactIntegersForSlivers) {
     std::mt19937 random(3);
     Mesh mesh;
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 200 * stress_scale(); ++i) {
         // 3000 pixels long and some 1/256 pixel wide, through the frame in any direction.
         const float angle = uniform(random, 0, 6.2831853f), x = uniform(random, 0, 64), y = uniform(random, 0, 32),
                     width = uniform(random, 0, 0.01f);
@@ -87,7 +109,9 @@ TEST(Coverage, EqualsExactIntegersForSlivers) {
         const glm::vec3 middle(x, y, 0.5f);
         mesh.add(middle - along, middle + along, middle + across);
     }
-    for (const SamplePattern& pattern : sample_patterns()) expect_exact_coverage(mesh, frame_options(64, 32), pattern);
+    ExactSamples samples;
+    expect_exact_coverage(mesh, frame_options(64, 32), samples);
+    samples.tell();
 }
 
 TEST(Coverage, EqualsExactIntegersAcrossTheWidestFrame) {
@@ -95,7 +119,9 @@ TEST(Coverage, EqualsExactIntegersAcrossTheWidestFrame) {
     mesh.add({-30000, 7.4921875f, 0.5f}, {32767, 8.50390625f, 0.5f}, {31000, -20000, 0.5f});
     mesh.add({0, 0, 0.5f}, {16384, 16, 0.5f}, {0, 16, 0.5f});
     mesh.add({16384, 0.5f, 0.5f}, {0, 0.50390625f, 0.5f}, {16384, 15.5f, 0.5f});
-    for (const SamplePattern& pattern : sample_patterns()) expect_exact_coverage(mesh, frame_options(16384, 16), pattern);
+    ExactSamples samples;
+    expect_exact_coverage(mesh, frame_options(16384, 16), samples);
+    samples.tell();
 }
 
 TEST(Coverage, HoldsOnEveryInstructionSet) {
@@ -186,7 +212,8 @@ TEST(Coverage, OfAMeshIsExactlyOneAtEverySample) {
             }
         }
     }
-    RecordProperty("samples", std::to_string(samples));
+    tell_tested(samples);
+    tell_worst_case("samples_not_hit_once", 0);
 }
 
 TEST(Coverage, OfAFanAboutAPixelCentreIsExactlyOne) {

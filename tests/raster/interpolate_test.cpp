@@ -4,6 +4,8 @@
 #include "tests/raster/scenes.h"
 #include "tests/reference/raster/exact_coverage.h"
 #include "tests/reference/raster/exact_interpolation.h"
+#include "tests/stress/worst_case.h"
+#include "tests/stress_scale.h"
 
 #include <gtest/gtest.h>
 
@@ -47,6 +49,7 @@ void for_covered_samples(const Frame& frame, int stride, Visit&& visit) {
 }
 
 struct WorstWeights {
+    uint64_t samples = 0;
     double weight = 0, derivative = 0, depth = 0;
 };
 
@@ -58,6 +61,7 @@ WorstWeights worst_against_quadruple(const Frame& frame, std::span<const Draw> d
         source_vertices(triangle, draws[triangle.draw], vertex);
         const reference::QuadWeights exact = reference::weights_at(vertex, x, y);
         const Barycentrics got = barycentrics(triangle, x, y);
+        ++worst.samples;
         worst.weight = std::max({worst.weight, std::abs(double(got.b1 - exact.b[1])), std::abs(double(got.b2 - exact.b[2]))});
         EXPECT_NEAR(double(got.inverse_w / exact.inverse_w), 1.0, 1e-9);
 
@@ -82,17 +86,17 @@ WorstWeights worst_against_quadruple(const Frame& frame, std::span<const Draw> d
 }
 
 void record(const WorstWeights& worst) {
-    const auto property = [](const char* name, double value) { ::testing::Test::RecordProperty(name, ::testing::PrintToString(value)); };
-    property("worst_weight", worst.weight);
-    property("worst_derivative", worst.derivative);
-    property("worst_depth", worst.depth);
+    tell_tested(worst.samples, "interpolated samples");
+    tell_worst_case("worst_weight", worst.weight);
+    tell_worst_case("worst_derivative", worst.derivative);
+    tell_worst_case("worst_depth", worst.depth);
 }
 
 TEST(Interpolation, EqualsQuadruplePrecisionOnWholeTriangles) {
     std::mt19937 random(1);
     // All before the camera; w from 0.1 to 1e5 within one triangle, that is 1 : 1e6.
     Mesh mesh;
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < 400 * stress_scale(); ++i) {
         const auto corner = [&] {
             const float depth = std::pow(10.0f, uniform(random, -1, 5));
             return glm::vec3(uniform(random, -1, 1) * depth, uniform(random, -1, 1) * depth, -depth);
@@ -113,7 +117,7 @@ TEST(Interpolation, EqualsQuadruplePrecisionOnWholeTriangles) {
 TEST(Interpolation, EqualsQuadruplePrecisionOnClippedTriangles) {
     std::mt19937 random(2);
     Mesh mesh;
-    for (int i = 0; i < 600; ++i) {
+    for (int i = 0; i < 600 * stress_scale(); ++i) {
         const float size = std::exp2(uniform(random, -1, 12));
         const auto corner = [&] { return size * glm::vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1.5f, 0.5f)); };
         mesh.add(corner(), corner(), corner());
@@ -181,7 +185,7 @@ TEST(Interpolation, GivesSnappedVerticesTheirOwnAttributes) {
 TEST(Interpolation, NeverLeavesTheVerticesRangeOnWholeTriangles) {
     std::mt19937 random(4);
     Mesh mesh;
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < 3000 * stress_scale(); ++i) {
         // Slivers and crumbs, where a plane in floating point would overshoot.
         const float x = uniform(random, 0, kSize), y = uniform(random, 0, kSize), length = std::exp2(uniform(random, -4, 11)),
                     angle = uniform(random, 0, 6.3f);
@@ -191,28 +195,33 @@ TEST(Interpolation, NeverLeavesTheVerticesRangeOnWholeTriangles) {
     }
     const Draw draw = mesh.draw(clip_from_pixels(kSize, kSize));
     const Frame frame(square_frame(kSize), {&draw, 1});
-    int samples = 0;
+    uint64_t samples = 0;
+    double beyond = 0;
     for_covered_samples(frame, 1, [&](const SetupTriangle& triangle, double x, double y) {
         const Barycentrics at = barycentrics(triangle, x, y);
         EXPECT_GE(at.b1, 0.0);
         EXPECT_GE(at.b2, 0.0);
         EXPECT_LE(at.b1 + at.b2, 1.0 + 0x1p-51);
+        beyond = std::max(beyond, at.b1 + at.b2 - 1.0);
         ++samples;
     });
-    EXPECT_GT(samples, 1000);
+    EXPECT_GT(samples, 1000u);
+    tell_tested(samples, "interpolated samples");
+    tell_worst_case("weights_beyond_one", beyond);
 }
 
 TEST(Interpolation, LeavesTheVerticesRangeOnPiecesByNoMoreThanSnappingMoves) {
     std::mt19937 random(5);
     Mesh mesh;
-    for (int i = 0; i < 1500; ++i) {
+    for (int i = 0; i < 1500 * stress_scale(); ++i) {
         const float size = std::exp2(uniform(random, -1, 12));
         const auto corner = [&] { return size * glm::vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1.5f, 0.5f)); };
         mesh.add(corner(), corner(), corner());
     }
     const Draw draw = mesh.draw(perspective(0.9f, 1, 0.05f));
     const Frame frame(square_frame(kSize), {&draw, 1});
-    int samples = 0;
+    uint64_t samples = 0;
+    double outside = 0;
     for_covered_samples(frame, 1, [&](const SetupTriangle& triangle, double x, double y) {
         if (triangle.bary_over_w == nullptr) return;
         const Barycentrics at = barycentrics(triangle, x, y);
@@ -220,9 +229,12 @@ TEST(Interpolation, LeavesTheVerticesRangeOnPiecesByNoMoreThanSnappingMoves) {
         const double dx[3] = {-at.db1_dx - at.db2_dx, at.db1_dx, at.db2_dx}, dy[3] = {-at.db1_dy - at.db2_dy, at.db1_dy, at.db2_dy};
         for (int i = 0; i < 3; ++i)
             EXPECT_GE(b[i], -(std::abs(dx[i]) + std::abs(dy[i])) / 256 - 1e-9) << "weight " << i << " at " << x << "," << y;
+        outside = std::max({outside, -b[0], -b[1], -b[2]});
         ++samples;
     });
-    EXPECT_GT(samples, 10000);
+    EXPECT_GT(samples, 10000u);
+    tell_tested(samples, "interpolated samples");
+    tell_worst_case("weights_below_zero", outside);
 }
 
 bool same_bits(const BarycentricWave& p, const BarycentricWave& q) { return std::memcmp(&p, &q, sizeof(p)) == 0; }

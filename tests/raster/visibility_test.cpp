@@ -2,6 +2,7 @@
 #include "tests/raster/drawing.h"
 #include "tests/raster/scenes.h"
 #include "tests/reference/raster/exact_visibility.h"
+#include "tests/stress/worst_case.h"
 #include "tests/stress_scale.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ FrameOptions frame_options(int width, int height, int tile_size = 64) {
 }
 
 /// Bit for bit: ids and depths.
-void expect_true_winners(const Frame& frame, const SamplePattern& pattern) {
+void expect_true_winners(const Frame& frame, const SamplePattern& pattern, uint64_t& samples) {
     const Picture picture = draw_frame(frame, pattern, cover_by_hash);
     const int width = frame.options().width, height = frame.options().height;
     for (int y = 0; y < height; ++y) {
@@ -35,20 +36,24 @@ void expect_true_winners(const Frame& frame, const SamplePattern& pattern) {
             const size_t pixel = size_t(y) * size_t(width) + size_t(x);
             ASSERT_EQ(picture.id[pixel], id) << "pixel " << x << "," << y << ", depth " << picture.depth[pixel] << " and " << winner.depth;
             ASSERT_EQ(picture.depth[pixel], winner.depth) << "pixel " << x << "," << y;
+            ++samples;
         }
     }
 }
 
 TEST(Visibility, IsTheNearestCoveringTriangleThenTheFirst) {
-    for (uint32_t seed = 1; seed <= 6; ++seed) {
+    uint64_t samples = 0;
+    for (uint32_t seed = 1; seed <= uint32_t(6 * stress_scale()); ++seed) {
         const MixedScene scene(seed, 200);
         const Frame frame(frame_options(100, 70), scene.draws);
         ASSERT_GT(frame.counts().clipped, 0u);
         for (const SamplePattern& pattern : sample_patterns()) {
-            expect_true_winners(frame, pattern);
+            expect_true_winners(frame, pattern, samples);
             ASSERT_FALSE(HasFatalFailure()) << "seed " << seed;
         }
     }
+    tell_tested(samples);
+    tell_worst_case("winners_or_depths_that_differ", 0);
 }
 
 TEST(Visibility, IsTheSameOnEveryInstructionSet) {
@@ -101,7 +106,7 @@ TEST(Visibility, DoesNotDependOnTheOrderOfSubmission) {
 
 TEST(Visibility, GivesCoplanarCopiesToTheSmallestIdWhateverTheirVertexOrder) {
     std::mt19937 random(8);
-    uint64_t covered = 0;
+    uint64_t samples = 0, covered = 0;
     for (int round = 0; round < 300 * stress_scale(); ++round) {
         // Large and steep, near plane and guard band included, so that depths have many bits to disagree in.
         const float size = std::exp2(uniform(random, -2, 12));
@@ -129,8 +134,11 @@ TEST(Visibility, GivesCoplanarCopiesToTheSmallestIdWhateverTheirVertexOrder) {
                 << "id " << picture.id[i] << " at entry " << i << " in round " << round;
             covered += picture.id[i] == 0;
         }
+        samples += picture.id.size();
     }
     EXPECT_GT(covered, 50000u);
+    tell_tested(samples);
+    tell_worst_case("samples_of_another_copy", 0);
 }
 
 TEST(Visibility, AsksTheCoveragePolicyOnlyForCandidatesInFrontSoFar) {

@@ -1,5 +1,6 @@
 // Damaged files: cut off anywhere, changed anywhere. They load or they are one clear error; nothing else may happen.
 #include "tests/scenes/gltf_fixture.h"
+#include "tests/stress/worst_case.h"
 #include "tests/stress_scale.h"
 
 #include "texunit/texel_source.h"
@@ -140,6 +141,7 @@ TEST(Hostile, FilesWithChangedBytesLoadOrAreRefused) {
     int loaded = 0;
     const int files = 2500 * stress_scale();
     for (int i = 0; i < files; ++i) loaded += survives(folder.write("changed.glb", mutated(file, random)));
+    tell_tested(uint64_t(files), "files");
     EXPECT_GT(loaded, files / 100);
     EXPECT_LT(loaded, files);
 }
@@ -156,6 +158,7 @@ TEST(Hostile, FilesWithChangedNumbersLoadOrAreRefused) {
         for (int edits = 1 + int(random() % 2); edits > 0; --edits) fixture.json = with_other_number(fixture.json, random);
         loaded += survives(folder.write("changed.glb", fixture.glb()));
     }
+    tell_tested(uint64_t(files), "files");
     EXPECT_GT(loaded, files / 20);
     EXPECT_LT(loaded, files);
 }

@@ -1,5 +1,6 @@
 #include "shading/accumulation.h"
 
+#include "tests/stress/worst_case.h"
 #include "tests/stress_scale.h"
 
 #include <gtest/gtest.h>
@@ -102,6 +103,7 @@ TEST(SampleTree, HoldsEqualSamplesExactly) {
     float mean = 0;
     tree.mean(0, {&mean, 1});
     EXPECT_EQ(mean, value);
+    tell_worst_case("mean_off_by", std::abs(double(mean) - double(value)));
 }
 
 TEST(SampleTree, StartsAgainAfterClear) {
@@ -130,7 +132,8 @@ TEST(SampleTree, HoldsUnequalSamplesToSingleRounding) {
     tree.sum(0, sum);
     double worst = 0;
     for (size_t i = 0; i < 3; ++i) worst = std::max(worst, std::abs(double(((long double)(sum[i]) - sums[i]) / sums[i])));
-    std::printf("sums of %.3g unequal samples: within %.2g of their value\n", double(count), worst);
+    tell_tested(count, "summands");
+    tell_worst_case("sum_off_by", worst);
     // Four roundings of floats are not all one way.
     EXPECT_LT(worst, 0x1p-24);
 }

@@ -3,6 +3,7 @@
 #include "scene_parts.h"
 #include "shading/accumulation.h"
 #include "tests/shading/executor_kinds.h"
+#include "tests/stress/worst_case.h"
 #include "texunit/simd.h"
 
 #include <gtest/gtest.h>
@@ -88,6 +89,7 @@ TEST_F(RenderTest, GivesTheSameBitsForAnyThreadsAndTileSize) {
                                     std::to_string(tile_size));
         }
     }
+    tell_worst_case("values_that_differ", 0);
 }
 
 TEST_F(RenderTest, GivesACropTheBitsOfThatPart) {
@@ -168,6 +170,7 @@ TEST_F(RenderTest, SeesTheSameOnEveryInstructionSet) {
     RenderOptions options = RenderTest::options();
     options.fetches.count = true;
     std::optional<RenderResult> expected;
+    double most = 0;
     const texunit::Simd before = texunit::chosen_simd();
     for (const texunit::Simd simd : texunit::available_simd()) {
         ASSERT_TRUE(texunit::choose_simd(simd));
@@ -186,9 +189,11 @@ TEST_F(RenderTest, SeesTheSameOnEveryInstructionSet) {
             const double a = double(result.radiance.values[i]), b = double(expected->radiance.values[i]);
             worst = std::max(worst, std::abs(a - b) / std::max(std::abs(b), 1e-3));
         }
+        most = std::max(most, worst);
         EXPECT_LT(worst, 1e-5) << name << " against " << to_string(texunit::available_simd().front());
     }
     texunit::choose_simd(before);
+    tell_worst_case("radiance_off_by", most);
 }
 
 TEST_F(RenderTest, MeasuresDepthAlongTheViewAxis) {

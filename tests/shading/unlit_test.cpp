@@ -1,5 +1,6 @@
 // Affine shading: converged renders against the double-precision reference renderer.
 #include "tests/reference/shading/unlit_reference.h"
+#include "tests/stress/worst_case.h"
 
 #include "scene_parts.h"
 #include "shading/camera.h"
@@ -46,7 +47,7 @@ Difference compare(const Scene& scene, const RenderOptions& options) {
 void expect_close(const Scene& scene, const RenderOptions& options, const std::string& what) {
     const Difference difference = compare(scene, options);
     EXPECT_LT(difference.worst, 1e-5) << what << " at pixel " << difference.x << "," << difference.y;
-    testing::Test::RecordProperty(what, std::to_string(difference.worst));
+    tell_worst_case(what, difference.worst);
 }
 
 RenderOptions converged() {

@@ -1,6 +1,7 @@
 // Damaged files: whatever the bytes, opening and decoding ends in texels or in a TextureError, with bounded memory.
 #include "tests/texunit/container_allocations.h"
 #include "tests/texunit/container_damage.h"
+#include "tests/stress/worst_case.h"
 #include "tests/stress_scale.h"
 
 #include "texunit/containers.h"
@@ -75,12 +76,11 @@ TEST(DamagedContainers, EndInTexelsOrInATextureErrorWithBoundedMemory) {
         // What a zstd level inflates to is counted against its format and extents.
         ASSERT_LE(used, 2 * file_bytes + 2 * image_bytes + (1 << 20)) << "mutation " << i << " of a file of " << file_bytes << " bytes";
     }
-    RecordProperty("texels", texels);
-    RecordProperty("refused", refused);
     // Both ways out must be taken, or the mutations test nothing.
     EXPECT_GT(texels, 1000) << "refused " << refused;
     EXPECT_GT(refused, 1000) << "read " << texels;
-    std::printf("%d read, %d refused, at most %zu bytes allocated\n", texels, refused, worst);
+    tell_tested(uint64_t(texels) + uint64_t(refused), "files");
+    tell_worst_case("most_bytes_allocated", worst);
 }
 
 TEST(DamagedContainers, OfHugeExtentsAllocateNothing) {

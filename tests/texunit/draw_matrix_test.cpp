@@ -2,6 +2,7 @@
 // the deterministic lookup.
 #include "texunit/shared_draw.h"
 
+#include "tests/stress/worst_case.h"
 #include "tests/stress_scale.h"
 #include "tests/texunit/drawn_places.h"
 #include "tests/texunit/hashed_source.h"
@@ -188,6 +189,8 @@ class Matrix {
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
         std::printf("%d cases of %.0f draws, largest deviate %.2f (%s), %.1f million draws a second\n", cases_, kDraws, worst_,
                     worst_name_.c_str(), cases_ * kDraws / 1e6 / seconds.count());
+        tell_tested(uint64_t(cases_ * kDraws), "draws");
+        tell_worst_case("largest_deviate", std::to_string(worst_) + " of " + worst_name_);
     }
     int cases() const { return cases_; }
 

@@ -5,6 +5,8 @@
 #include "texunit/simd.h"
 
 #include "tests/reference/texunit/footprint_reference.h"
+#include "tests/stress/worst_case.h"
+#include "tests/stress_scale.h"
 
 #include <gtest/gtest.h>
 
@@ -90,7 +92,9 @@ INSTANTIATE_TEST_SUITE_P(AllSets, Footprints, testing::ValuesIn(available_simd()
 TEST_P(Footprints, AgreeWithDoublePrecisionUnderBothRules) {
     const LevelTable table = make_levels(2048, 512);
     const reference::Image image = image_of(table);
-    const std::vector<Lookup> lookups = random_lookups(table, 20000, 3);
+    const std::vector<Lookup> lookups = random_lookups(table, 20000 * stress_scale(), 3);
+    uint64_t measured = 0;
+    double most_lod = 0, most_eta = 0, most_axis = 0;
     for (const LodRule rule : {LodRule::D3d, LodRule::Exact}) {
         for (const int probes : {1, 2, 16, 64}) {
             const SamplerState sampler{.probes = probes, .lod_rule = rule};
@@ -124,10 +128,14 @@ TEST_P(Footprints, AgreeWithDoublePrecisionUnderBothRules) {
                 }
             }
             EXPECT_LE(other_counts, int(lookups.size()) / 1000);
-            RecordProperty("worst_" + std::string(to_string(rule)) + std::to_string(probes),
-                           std::to_string(worst_lod) + " " + std::to_string(worst_eta) + " " + std::to_string(worst_axis));
+            most_lod = std::max(most_lod, worst_lod), most_eta = std::max(most_eta, worst_eta), most_axis = std::max(most_axis, worst_axis);
+            measured += lookups.size();
         }
     }
+    tell_tested(measured, "footprints");
+    tell_worst_case("lod_off_by", most_lod);
+    tell_worst_case("ratio_off_by", most_eta);
+    tell_worst_case("axis_off_by", most_axis);
 }
 
 TEST_P(Footprints, AreTheSameBitsOnEveryInstructionSet) {
@@ -186,10 +194,12 @@ TEST_P(Footprints, WithoutExtentOrWithoutEndAreHarmless) {
         {{0, 0, 1e-40f, 0, 0, 1e-42f}, 1, 0},                // denormal
         {{0, 0, 1e30f, 0, 0, 1e-30f}, 1, coarsest},          // the horizon
     };
+    double worst = 0;
     for (const Case& one : cases) {
         WaveFootprint found;
         measure_footprint(table, {.probes = 16, .lod_rule = LodRule::Exact}, gather({one.at}, 0), found);
         EXPECT_NEAR(found.lod[0], one.lod, 1e-6) << describe(one.at);
+        worst = std::max(worst, std::abs(double(found.lod[0]) - double(one.lod)));
         EXPECT_EQ(found.probes[0], one.probes) << describe(one.at);
         EXPECT_TRUE(std::isfinite(found.axis_u[0]) && std::isfinite(found.axis_v[0])) << describe(one.at);
         measure_footprint(table, {.probes = 16, .probe_variance = 0.25f}, gather({one.at}, 0), found);
@@ -197,6 +207,7 @@ TEST_P(Footprints, WithoutExtentOrWithoutEndAreHarmless) {
         EXPECT_TRUE(found.probes[0] >= 1 && found.probes[0] <= 16) << describe(one.at);
         EXPECT_TRUE(std::isfinite(found.axis_u[0]) && std::isfinite(found.axis_v[0])) << describe(one.at);
     }
+    tell_worst_case("lod_off_by", worst);
 }
 
 TEST_P(Footprints, KeepTheirLevelAtAllAnglesUpToTheProbeLimit) {

@@ -3,6 +3,9 @@
 #include "texunit/srgb.h"
 #include "texunit/texel_source.h"
 
+#include "tests/stress/worst_case.h"
+#include "tests/stress_scale.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -118,6 +121,8 @@ TEST(Layouts, MissingChannelsAreZeroAndMissingAlphaOne) {
 }
 
 TEST(Layouts, SrgbTablesLineariseTheExactFieldAndNeverReachBeyondTheMask) {
+    uint64_t fields = 0;
+    double worst = 0;
     for (const FormatInfo& about : all_formats()) {
         const TexelLayout& l = layout(about.format);
         for (int c = 0; c < 3; ++c) {
@@ -125,29 +130,41 @@ TEST(Layouts, SrgbTablesLineariseTheExactFieldAndNeverReachBeyondTheMask) {
             for (uint32_t field = 0; field <= l.mask[c]; ++field) {
                 const long double encoded = std::min<long double>(1, (long double)(field) / l.denominator[c]);
                 const long double linear = encoded <= 0.04045L ? encoded / 12.92L : std::pow((encoded + 0.055L) / 1.055L, 2.4L);
+                ++fields;
+                if (linear > 0) worst = std::max(worst, double(std::abs((l.table[c][field] - linear) / linear)));
                 ASSERT_NEAR(l.table[c][field], double(linear), double(linear) * 0x1p-24 + 1e-30) << about.name << " field " << field;
             }
             EXPECT_EQ(l.table[c][0], 0.0f);
             EXPECT_EQ(l.table[c][l.denominator[c]], 1.0f);
         }
     }
+    tell_tested(fields, "sRGB fields");
+    tell_worst_case("linear_off_by_of_its_value", worst);
 }
 
 TEST(Srgb, EveryCodeSurvivesDecodingAndEncoding) {
+    double worst = 0;
     for (int code = 0; code < 256; ++code) {
         EXPECT_EQ(int(encode_srgb8(srgb8_table()[code])), code);
+        worst = std::max(worst, std::abs(linear_to_srgb(srgb8_table()[code]) * 255 - code));
         EXPECT_NEAR(linear_to_srgb(srgb8_table()[code]), code / 255.0, 1e-7) << code;
     }
+    tell_worst_case("round_trip_off_in_codes", worst);
 }
 
 TEST(Srgb, EncodingPicksTheNearestCode) {
     std::mt19937 random(1);
     std::uniform_real_distribution<float> uniform(0.0f, 1.0f);
-    for (int i = 0; i < 100000; ++i) {
+    const int numbers = 100000 * stress_scale();
+    double worst = 0;
+    for (int i = 0; i < numbers; ++i) {
         const float linear = i % 2 ? uniform(random) : std::pow(uniform(random), 6.0f);
         const double scaled = linear_to_srgb(linear) * 255;
         ASSERT_LE(std::abs(int(encode_srgb8(linear)) - scaled), 0.5 + 1e-9) << linear;
+        worst = std::max(worst, std::abs(int(encode_srgb8(linear)) - scaled));
     }
+    tell_tested(uint64_t(numbers), "colours");
+    tell_worst_case("off_in_codes", worst);
 }
 
 TEST(Srgb, EncodingClampsAndTakesNotANumberAsZero) {

@@ -5,6 +5,7 @@
 #include "texunit/wave.h"
 
 #include "tests/reference/texunit/sampler_reference.h"
+#include "tests/stress/worst_case.h"
 
 #include <gtest/gtest.h>
 
@@ -21,6 +22,13 @@ struct Tally {
     uint64_t lookups = 0, other_decisions = 0;
     double worst = 0;  ///< in units of the bound
     std::string worst_case;
+
+    /// At the end of a test.
+    void tell() const {
+        tell_tested(lookups, "lookups");
+        tell_worst_case("worst_in_bounds", std::to_string(worst) + " of the bound: " + worst_case);
+        tell_worst_case("other_decisions", other_decisions);
+    }
 };
 
 using LaneColour = std::array<float, 4>;

@@ -6,6 +6,7 @@
 #include "texunit/probe_table.h"
 #include "texunit/sample.h"
 
+#include "tests/stress/worst_case.h"
 #include "tests/stress_scale.h"
 #include "tests/texunit/hashed_source.h"
 #include "tests/texunit/legal_lookups.h"
@@ -39,7 +40,8 @@ reference::Lookup stretched_lookup(LookupDraw& draw, int width, int height) {
     return at;
 }
 
-void expect_legal(const Shape& shape, bool hard, int waves) {
+/// How many lookups the verifier judged.
+void expect_legal(const Shape& shape, bool hard, int waves, uint64_t& judged_lookups) {
     Texture texture("hashed", std::make_unique<HashedSource>(Format::RGBA8Unorm, shape));
     const JudgedTexture reference = judged(texture);
     LookupDraw draw({shape.width, shape.height, 1}, shape.levels, uint32_t(shape.width) + hard);
@@ -71,15 +73,20 @@ void expect_legal(const Shape& shape, bool hard, int waves) {
     }
     EXPECT_LE(open * 10, asked) << "lookups of which nothing can be said";
     EXPECT_GE(probed * 3, asked);
+    judged_lookups += uint64_t(asked);
 }
 
 TEST(LegalProbes, HoldOurAnisotropicLookups) {
-    expect_legal({.width = 64, .height = 128, .layers = 3, .levels = full_level_count(64, 128)}, false, 40);
-    expect_legal({.width = 1000, .height = 300, .levels = full_level_count(1000, 300)}, false, 40);
+    uint64_t lookups = 0;
+    expect_legal({.width = 64, .height = 128, .layers = 3, .levels = full_level_count(64, 128)}, false, 40, lookups);
+    expect_legal({.width = 1000, .height = 300, .levels = full_level_count(1000, 300)}, false, 40, lookups);
+    tell_tested(lookups, "lookups");
 }
 
 TEST(LegalProbes, HoldOurAnisotropicLookupsAtAwkwardPlaces) {
-    expect_legal({.width = 64, .height = 32, .levels = full_level_count(64, 32)}, true, 40);
+    uint64_t lookups = 0;
+    expect_legal({.width = 64, .height = 32, .levels = full_level_count(64, 32)}, true, 40, lookups);
+    tell_tested(lookups, "lookups");
 }
 
 /// Probes put together from isotropic lookups, each of its own sampler: any rule one likes.

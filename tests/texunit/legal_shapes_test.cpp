@@ -2,6 +2,7 @@
 #include "texunit/legal_interval.h"
 #include "texunit/sample.h"
 
+#include "tests/stress/worst_case.h"
 #include "tests/stress_scale.h"
 #include "tests/texunit/hashed_source.h"
 #include "tests/texunit/legal_lookups.h"
@@ -57,8 +58,8 @@ ShapedLookup hard_lookup(LookupDraw& draw, const Shape& shape) {
     return lookup;
 }
 
-/// Lookups all legal, of which the verifier has something to say but for a few.
-void expect_legal(const Shape& shape, const std::function<bool(const Kernel&)>& takes, int judged_lanes) {
+/// Lookups all legal, of which the verifier has something to say but for a few; `lookups` counts what it judged.
+void expect_legal(const Shape& shape, const std::function<bool(const Kernel&)>& takes, int judged_lanes, uint64_t& lookups) {
     const auto texture = hashed_texture(shape);
     const JudgedTexture reference = judged(*texture);
     LookupDraw draw({shape.width, shape.height, shape.depth}, texture->shape().levels, uint32_t(shape.width + 7 * shape.depth));
@@ -74,11 +75,11 @@ void expect_legal(const Shape& shape, const std::function<bool(const Kernel&)>& 
             if (shape.depth == 1 && !shape.cube) sampler.probes = 1;
             if (draw.below(3) == 0) sampler.lod_bias = draw.uniform(-2, 2);
             if (draw.below(3) == 0) sampler.lod_rule = LodRule::Exact;
-            std::vector<ShapedLookup> lookups;
-            for (int i = 0; i < kWaveLanes; ++i) lookups.push_back(hard_lookup(draw, shape));
-            const WaveColor colour = sample_shape(*texture, sampler, lookups);
+            std::vector<ShapedLookup> wave;
+            for (int i = 0; i < kWaveLanes; ++i) wave.push_back(hard_lookup(draw, shape));
+            const WaveColor colour = sample_shape(*texture, sampler, wave);
             for (int i = 0; i < judged_lanes; ++i) {
-                const ShapedLookup& at = lookups[size_t(i)];
+                const ShapedLookup& at = wave[size_t(i)];
                 const LegalVerdict verdict = judge_lookup(reference, sampler, judged(at.at, at.layer), colour_of(colour, i), kOurs);
                 ASSERT_TRUE(verdict.legal) << to_string(verdict, colour_of(colour, i)) << "\n"
                                            << describe(sampler) << describe(at.at) << " layer " << at.layer << " bias " << sampler.lod_bias
@@ -89,27 +90,34 @@ void expect_legal(const Shape& shape, const std::function<bool(const Kernel&)>& 
         }
     }
     EXPECT_LE(open * 10, asked) << "lookups of which nothing can be said";
+    lookups += uint64_t(asked);
 }
 
 bool any_kernel(const Kernel&) { return true; }
 bool few_taps(const Kernel& kernel) { return axis_taps(kernel) <= 3; }
 
 TEST(LegalShapes, HoldOurArrays) {
-    expect_legal({.width = 37, .height = 64, .layers = 5}, any_kernel, 4);
-    expect_legal({.width = 8, .height = 1, .layers = 2}, any_kernel, 4);
+    uint64_t lookups = 0;
+    expect_legal({.width = 37, .height = 64, .layers = 5}, any_kernel, 4, lookups);
+    expect_legal({.width = 8, .height = 1, .layers = 2}, any_kernel, 4, lookups);
+    tell_tested(lookups, "lookups");
 }
 
 TEST(LegalShapes, HoldOurVolumes) {
-    expect_legal({.width = 33, .height = 16, .depth = 5}, few_taps, 4);
-    expect_legal({.width = 2, .height = 7, .depth = 40}, few_taps, 4);
+    uint64_t lookups = 0;
+    expect_legal({.width = 33, .height = 16, .depth = 5}, few_taps, 4, lookups);
+    expect_legal({.width = 2, .height = 7, .depth = 40}, few_taps, 4, lookups);
     const auto wide = [](const Kernel& kernel) { return kernel == Kernel::BSpline || kernel == Kernel::CatmullRom; };
-    expect_legal({.width = 8, .height = 8, .depth = 8}, wide, 2);
+    expect_legal({.width = 8, .height = 8, .depth = 8}, wide, 2, lookups);
+    tell_tested(lookups, "lookups");
 }
 
 TEST(LegalShapes, HoldOurCubeMapsAcrossEdgesAndCorners) {
-    expect_legal({.width = 32, .height = 32, .layers = 6, .cube = true}, any_kernel, 6);
-    expect_legal({.width = 3, .height = 3, .layers = 18, .cube = true}, any_kernel, 6);
-    expect_legal({.width = 1, .height = 1, .layers = 6, .cube = true}, any_kernel, 2);
+    uint64_t lookups = 0;
+    expect_legal({.width = 32, .height = 32, .layers = 6, .cube = true}, any_kernel, 6, lookups);
+    expect_legal({.width = 3, .height = 3, .layers = 18, .cube = true}, any_kernel, 6, lookups);
+    expect_legal({.width = 1, .height = 1, .layers = 6, .cube = true}, any_kernel, 2, lookups);
+    tell_tested(lookups, "lookups");
 }
 
 /// Lookups answered rightly and asked wrongly: the difference is the mistake.

@@ -4,6 +4,7 @@
 #include "texunit/srgb.h"
 #include "texunit/texture.h"
 
+#include "tests/stress/worst_case.h"
 #include "tests/reference/texunit/mip_reference.h"
 #include "tests/texunit/hashed_source.h"
 
@@ -53,6 +54,7 @@ void for_each_generated_texel(Texture& texture, const Check& check) {
 }
 
 TEST(AreaWeights, CoverTheFinerLevelExactlyOnce) {
+    double worst = 0;
     for (const int finer : {1, 2, 3, 4, 5, 7, 16, 17, 999, 16383}) {
         const int extent = std::max(1, finer / 2);
         std::vector<double> covered(size_t(finer), 0.0);
@@ -63,13 +65,17 @@ TEST(AreaWeights, CoverTheFinerLevelExactlyOnce) {
                 sum += weights.weight[size_t(k)];
                 covered.at(size_t(weights.first + k)) += weights.weight[size_t(k)];
             }
+            worst = std::max(worst, std::abs(sum - 1));
             ASSERT_NEAR(sum, 1, 1e-15) << "texel " << i << " over " << finer;
         }
         for (const double share : covered) ASSERT_NEAR(share, double(extent) / finer, 1e-15) << "extent " << finer;
     }
+    tell_worst_case("weights_off_one_by", worst);
 }
 
 TEST(Mips, AreTheAreaMeanRoundedToTheImagesOwnFormat) {
+    uint64_t texels = 0;
+    double worst_codes = 0;
     for (const FormatInfo& about : all_formats()) {
         const TexelLayout& stored = layout(about.format);
         for (const auto& [width, height] : {std::pair{12, 7}, {33, 18}}) {
@@ -78,6 +84,7 @@ TEST(Mips, AreTheAreaMeanRoundedToTheImagesOwnFormat) {
             for_each_generated_texel(texture, [&](int level, int slice, int x, int y) {
                 const std::array<float, 4> found = texture.texel(level, slice, x, y);
                 const std::array<double, 4> exact = mean_below(texture, level, slice, x, y);
+                ++texels;
                 for (size_t c = 0; c < 4; ++c) {
                     const bool srgb = stored.table[c] != nullptr;
                     const double scale = stored.denominator[c];
@@ -86,8 +93,10 @@ TEST(Mips, AreTheAreaMeanRoundedToTheImagesOwnFormat) {
                     } else if (stored.storage == StorageClass::Half4) {
                         ASSERT_NEAR(found[c], exact[c], std::max(std::abs(exact[c]) * 0x1.001p-11, 0x1p-25)) << about.name;
                     } else if (scale > 0) {
-                        ASSERT_NEAR((srgb ? linear_to_srgb(found[c]) : double(found[c])) * scale,
-                                    (srgb ? linear_to_srgb(exact[c]) : exact[c]) * scale, 0.5 + 1e-3)
+                        const double codes = (srgb ? linear_to_srgb(found[c]) : double(found[c])) * scale,
+                                     exact_codes = (srgb ? linear_to_srgb(exact[c]) : exact[c]) * scale;
+                        worst_codes = std::max(worst_codes, std::abs(codes - exact_codes));
+                        ASSERT_NEAR(codes, exact_codes, 0.5 + 1e-3)
                             << about.name << " level " << level << " texel " << x << ',' << y << " channel " << c;
                     }
                 }
@@ -95,9 +104,12 @@ TEST(Mips, AreTheAreaMeanRoundedToTheImagesOwnFormat) {
             if (HasFatalFailure()) return;
         }
     }
+    tell_tested(texels, "texels");
+    tell_worst_case("off_in_codes", worst_codes);
 }
 
 TEST(Mips, InFloatStorageKeepTheMeanWhateverTheFormat) {
+    double worst = 0;
     for (const Format format : {Format::RGBA8Unorm, Format::RGBA8Srgb, Format::RGBA16Half, Format::BC1RgbaSrgb, Format::RGBA32Float}) {
         for (const auto& [width, height] : kExtents) {
             Texture texture("hashed", std::make_unique<HashedSource>(format, Shape{.width = width, .height = height}),
@@ -115,11 +127,13 @@ TEST(Mips, InFloatStorageKeepTheMeanWhateverTheFormat) {
                 for (int y = 0; y < h; ++y) {
                     for (int x = 0; x < w; ++x) mean += texture.texel(level, 0, x, y)[1] / double(w * h);
                 }
+                if (largest > 0) worst = std::max(worst, std::abs(mean - base) / largest);
                 ASSERT_NEAR(mean, base, largest * level * 0x1p-24)
                     << info(format).name << ' ' << width << 'x' << height << " level " << level;
             }
         }
     }
+    tell_worst_case("mean_off_by_of_the_largest_texel", worst);
 }
 
 TEST(Mips, OfA3dTextureAverageItsDepthToo) {
@@ -187,6 +201,7 @@ TEST(Mips, OfAnEvenSrgbCheckerAre188) {
         EXPECT_EQ(value[0], srgb8_table()[188]) << "level " << level;
         EXPECT_NEAR(value[3], 0.5, 0.51 / 255) << "alpha is linear";
     }
+    tell_worst_case("code_of_an_even_checker", int(encode_srgb8(texture.texel(3, 0, 0, 0)[0])));
 }
 
 }  // namespace

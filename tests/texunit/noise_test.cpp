@@ -1,6 +1,7 @@
 // What holds for every noise: its numbers are uniform, unrelated between roles, and the same wherever and by whatever they are computed.
 #include "texunit/noise.h"
 
+#include "tests/stress/worst_case.h"
 #include "tests/texunit/every_simd.h"
 #include "tests/texunit/uniformity.h"
 
@@ -109,6 +110,7 @@ TEST(Noise, BelongsToThePixelWhateverTheWave) {
 }
 
 TEST(Noise, IsAMultipleOf2ToMinus24BelowOne) {
+    float greatest = 0;
     std::mt19937 random(5);
     for (const NoiseInfo& known : all_noises()) {
         float most = 0, least = 1;
@@ -125,10 +127,13 @@ TEST(Noise, IsAMultipleOf2ToMinus24BelowOne) {
             }
         }
         // 1 280 000 numbers: the whole range is used, to the last bit.
+        greatest = std::max(greatest, most);
         EXPECT_LT(least, 2e-5f) << known.name;
         EXPECT_GT(most, 1 - 2e-5f) << known.name;
         EXPECT_NEAR(lowest_bits, 640000, 6 * 566) << known.name;
     }
+    tell_tested(all_noises().size() * 1280000, "random numbers");
+    tell_worst_case("largest_number_below_one_by", 1.0 - double(greatest));
 }
 
 /// Counts of numbers by their upper bits and by their lowest 8, and of pairs of numbers.

@@ -6,6 +6,8 @@
 #include "texunit/simd.h"
 
 #include "tests/reference/texunit/footprint_reference.h"
+#include "tests/stress/worst_case.h"
+#include "tests/stress_scale.h"
 #include "tests/texunit/hashed_source.h"
 
 #include <gtest/gtest.h>
@@ -229,11 +231,12 @@ TEST_P(Probes, GiveTheSameBitsAsScalarWhateverTheMask) {
 }
 
 TEST_P(Probes, SurviveFootprintsWithoutExtentOrWithoutEnd) {
+    uint64_t lookups = 0, most_taps = 0;
     for (const auto& [width, height] : {std::pair{64, 32}, {1, 64}, {64, 1}, {1, 1}}) {
         Texture texture("hashed", make_hashed_pyramid(Format::RGBA8Unorm, width, height));
         const float values[] = {0.0f, -0.0f, 1e-40f, 1e-30f, 0.01f, 1.0f, 1e30f, 3e38f, kInfinity, kNan};
         std::mt19937 random(13);
-        for (int n = 0; n < 200; ++n) {
+        for (int n = 0; n < 200 * stress_scale(); ++n) {
             WaveCoordinates at;
             for (WaveFloat* wave : {&at.u, &at.v, &at.dudx, &at.dvdx, &at.dudy, &at.dvdy}) {
                 for (int i = 0; i < kWaveLanes; ++i) (*wave)[i] = values[random() % std::size(values)] * (random() % 2 ? -1.0f : 1.0f);
@@ -247,6 +250,8 @@ TEST_P(Probes, SurviveFootprintsWithoutExtentOrWithoutEnd) {
             FetchCounts counts;
             sample_wave(texture, sampler, at, kWaveFull, colour, &counts);
             EXPECT_LE(counts.taps, uint64_t{32} * 64 * 8);
+            most_taps = std::max(most_taps, counts.taps);
+            lookups += kWaveLanes;
             for (int c = 0; c < 4; ++c) {
                 for (int i = 0; i < kWaveLanes; ++i) {
                     const Lookup one = lookup_of(at, i);
@@ -257,6 +262,9 @@ TEST_P(Probes, SurviveFootprintsWithoutExtentOrWithoutEnd) {
             }
         }
     }
+    tell_tested(lookups, "lookups");
+    tell_worst_case("most_taps_of_32_lookups", most_taps);
+    tell_worst_case("not_finite_or_out_of_range", 0);
 }
 
 /// Sums what the taps say the lookup is.

@@ -1,10 +1,12 @@
 // The quality of addressed random numbers: uniform, every input bit matters, no relation between pixels, samples, surfaces and roles.
 #include "texunit/random.h"
 
+#include "tests/stress/worst_case.h"
 #include "tests/texunit/uniformity.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <functional>
@@ -43,6 +45,8 @@ const NamedWalk kWalks[] = {
 constexpr uint32_t kCount = 1 << 18;
 
 TEST(Random, IsUniformAlongEveryWordOfTheAddress) {
+    double worst = 0;
+    uint64_t numbers = 0;
     for (const NamedWalk& walk : kWalks) {
         for (const Dimension dimension : kDimensions) {
             std::vector<uint64_t> high(256), low(256);
@@ -53,10 +57,14 @@ TEST(Random, IsUniformAlongEveryWordOfTheAddress) {
                 ++high[bits >> 24];
                 ++low[bits & 255];
             }
+            worst = std::max({worst, std::abs(unevenness(high)), std::abs(unevenness(low))});
             EXPECT_LT(std::abs(unevenness(high)), kLimit) << "high bits, " << walk.name << ", dimension " << int(dimension);
             EXPECT_LT(std::abs(unevenness(low)), kLimit) << "low bits, " << walk.name << ", dimension " << int(dimension);
+            numbers += kCount;
         }
     }
+    tell_tested(numbers, "random numbers");
+    tell_worst_case("largest_deviate", worst);
 }
 
 /// Pairs of numbers from neighbouring addresses fill the square evenly.

@@ -101,7 +101,7 @@ TEST_P(SampleShapes, VolumesAgreeWithTheReference) {
         }
     }
     EXPECT_LE(tally.other_decisions * 20, tally.lookups) << "of " << tally.lookups;
-    RecordProperty("worst_in_bounds", std::to_string(tally.worst) + tally.worst_case);
+    tally.tell();
 }
 
 TEST_P(SampleShapes, CubeMapsAgreeWithTheReference) {
@@ -129,7 +129,7 @@ TEST_P(SampleShapes, CubeMapsAgreeWithTheReference) {
         }
     }
     EXPECT_LE(tally.other_decisions * 20, tally.lookups) << "of " << tally.lookups;
-    RecordProperty("worst_in_bounds", std::to_string(tally.worst) + tally.worst_case);
+    tally.tell();
 }
 
 /// Lookups of generic coordinates and footprints, and what they come to against the reference: how many decide otherwise.
@@ -185,6 +185,7 @@ TEST(ShapeDecisions, OfVolumesDifferFromTheReferenceInAtMostOneOf100000RandomLoo
         .judge_all([&](const SamplerState& sampler, const WaveCoordinates3& at,
                        WaveColor& colour) { sample_volume_wave(*texture, sampler, at, kWaveFull, colour); },
                    reference::sample_volume, tally);
+    tally.tell();
     EXPECT_LE(tally.other_decisions * 100000, tally.lookups) << tally.other_decisions << " of " << tally.lookups;
 }
 
@@ -198,6 +199,7 @@ TEST(ShapeDecisions, OfCubeMapsDifferFromTheReferenceInAtMostOneOf100000RandomLo
                        return reference::sample_cube(image, sampler, lookup, 0, shift);
                    },
                    tally);
+    tally.tell();
     EXPECT_LE(tally.other_decisions * 100000, tally.lookups) << tally.other_decisions << " of " << tally.lookups;
 }
 
@@ -229,6 +231,7 @@ TEST_P(SampleShapes, ArraysReadTheNearestLayer) {
             shown, tally);
         if (HasFatalFailure()) return;
     }
+    tally.tell();
 }
 
 /// A direction on face `face` at (s, t), 0..1 on the face.

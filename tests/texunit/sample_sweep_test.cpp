@@ -77,8 +77,7 @@ TEST_P(SampleSweep, AgreesWithTheReferenceAndBetweenInstructionSets) {
         }
     }
     // These lookups sit on thresholds on purpose; on random ones the next test allows one in 10^5.
-    RecordProperty("other_decisions", int(tally.other_decisions));
-    RecordProperty("worst_in_bounds", std::to_string(tally.worst) + tally.worst_case);
+    tally.tell();
     EXPECT_LE(tally.other_decisions * 20, tally.lookups) << "of " << tally.lookups;
 }
 
@@ -97,10 +96,10 @@ INSTANTIATE_TEST_SUITE_P(Formats, SampleSweep, testing::Combine(testing::ValuesI
                          case_name);
 
 TEST(SampleSweepWide, TheWidestGaussiansAgreeWithTheReference) {
+    Tally tally;
     for (const auto& [width, height] : {std::pair{1, 1}, {3, 70}, {512, 300}}) {
         Texture texture("hashed", make_hashed_pyramid(Format::RGBA16Half, width, height));
         LookupDraw draw({width, height, 1}, texture.shape().levels, uint32_t(width));
-        Tally tally;
         for (const Kernel& kernel : {Kernel::gaussian(kMostSigma), Kernel::gaussian_point(kMostSigma), Kernel::gaussian(7.7f)}) {
             SamplerState sampler = draw_sampler(draw, kernel, Wrap(draw.below(5)));
             sampler.magnify = sampler.minify = kernel;
@@ -109,6 +108,7 @@ TEST(SampleSweepWide, TheWidestGaussiansAgreeWithTheReference) {
             if (HasFatalFailure()) break;
         }
     }
+    tally.tell();
     choose_simd(Simd::Auto);
 }
 
@@ -141,8 +141,7 @@ TEST(SampleDecisions, DifferFromTheReferenceInAtMostOneOf100000RandomLookups) {
         }
     }
     EXPECT_LE(tally.other_decisions * 100000, tally.lookups) << tally.other_decisions << " of " << tally.lookups;
-    RecordProperty("other_decisions", int(tally.other_decisions));
-    RecordProperty("worst_in_bounds", std::to_string(tally.worst));
+    tally.tell();
 }
 
 }  // namespace

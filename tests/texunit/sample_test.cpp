@@ -3,6 +3,8 @@
 #include "texunit/memory_source.h"
 #include "texunit/simd.h"
 
+#include "tests/stress/worst_case.h"
+#include "tests/stress_scale.h"
 #include "tests/texunit/hashed_source.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +68,8 @@ WaveCoordinates uniform_coordinates(float u, float v, float texels_per_pixel, in
     return at;
 }
 
-void expect_constant(Format format, const std::vector<std::byte>& texel, MipStorage mip_storage, std::mt19937& random) {
+/// `values` counts what came back bit for bit.
+void expect_constant(Format format, const std::vector<std::byte>& texel, MipStorage mip_storage, std::mt19937& random, uint64_t& values) {
     constexpr int kWidth = 13, kHeight = 6;
     Texture texture("constant", make_memory_source(format, kWidth, kHeight, repeated(texel, kWidth * kHeight)),
                     {.mip_storage = mip_storage});
@@ -83,25 +86,30 @@ void expect_constant(Format format, const std::vector<std::byte>& texel, MipStor
                         << expected[size_t(c)];
                 }
             }
+            values += 4 * kWaveLanes;
         }
     }
 }
 
 TEST_P(Sample, LeavesConstantTexturesOfEvery8BitCodeBitEqual) {
     std::mt19937 random(1);
+    uint64_t values = 0;
     for (const Format format : {Format::RGBA8Unorm, Format::RGBA8Snorm, Format::RGBA8Srgb}) {
         for (int code = 0; code < 256; ++code) {
             const std::vector<std::byte> texel = {std::byte(code), std::byte(255 - code), std::byte(code * 7), std::byte(code)};
-            expect_constant(format, texel, MipStorage::Source, random);
-            if (code % 16 == 3) expect_constant(format, texel, MipStorage::Float, random);
+            expect_constant(format, texel, MipStorage::Source, random, values);
+            if (code % 16 == 3) expect_constant(format, texel, MipStorage::Float, random, values);
             if (HasFatalFailure()) return;
         }
     }
+    tell_tested(values, "constants");
+    tell_worst_case("constants_changed", 0);
 }
 
 TEST_P(Sample, LeavesConstantTexturesOfWiderFormatsBitEqual) {
     std::mt19937 random(2);
-    for (int n = 0; n < 200; ++n) {
+    uint64_t values = 0;
+    for (int n = 0; n < 200 * stress_scale(); ++n) {
         std::vector<uint16_t> codes(4), halves(4);
         std::vector<float> floats(4);
         for (size_t c = 0; c < 4; ++c) {
@@ -109,21 +117,26 @@ TEST_P(Sample, LeavesConstantTexturesOfWiderFormatsBitEqual) {
             halves[c] = uint16_t((random() & 0x8000u) | random() % 0x7C00u);
             floats[c] = std::ldexp(float(random()) - 0x1p31f, int(random() % 150) - 100);
         }
-        expect_constant(Format::RGBA16Unorm, bytes_of(codes), MipStorage::Source, random);
-        expect_constant(Format::RGBA16Half, bytes_of(halves), MipStorage::Source, random);
-        expect_constant(Format::RGBA32Float, bytes_of(floats), MipStorage::Source, random);
+        expect_constant(Format::RGBA16Unorm, bytes_of(codes), MipStorage::Source, random, values);
+        expect_constant(Format::RGBA16Half, bytes_of(halves), MipStorage::Source, random, values);
+        expect_constant(Format::RGBA32Float, bytes_of(floats), MipStorage::Source, random, values);
         if (HasFatalFailure()) return;
     }
     expect_constant(Format::RGBA32Float,
                     bytes_of(std::vector<float>{std::numeric_limits<float>::max(), -std::numeric_limits<float>::max(), 0x1p-149f, 0}),
-                    MipStorage::Source, random);
+                    MipStorage::Source, random, values);
+    tell_tested(values, "constants");
+    tell_worst_case("constants_changed", 0);
 }
 
 TEST_P(Sample, GivesInfinityForConstantInfinityAndWhereItIsMixed) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     std::mt19937 random(3);
-    expect_constant(Format::RGBA32Float, bytes_of(std::vector<float>{kInfinity, -kInfinity, 1, kInfinity}), MipStorage::Source, random);
-    expect_constant(Format::RGBA16Half, bytes_of(std::vector<uint16_t>{0x7C00, 0xFC00, 0x0001, 0x7BFF}), MipStorage::Source, random);
+    uint64_t values = 0;
+    expect_constant(Format::RGBA32Float, bytes_of(std::vector<float>{kInfinity, -kInfinity, 1, kInfinity}), MipStorage::Source, random,
+                    values);
+    expect_constant(Format::RGBA16Half, bytes_of(std::vector<uint16_t>{0x7C00, 0xFC00, 0x0001, 0x7BFF}), MipStorage::Source, random,
+                    values);
 
     // Two texels, the second infinite: any weight of it gives infinity, none gives the first.
     Texture texture("mixed", make_memory_source(Format::R32Float, 2, 1, bytes_of(std::vector<float>{3, kInfinity})));

@@ -69,7 +69,7 @@ TEST(ClusterCull, LeavesNoTriangleOutThatReachesABin) {
         fewer_by_clusters += with.counts().culled_backface != without.counts().culled_backface;
     }
     EXPECT_GT(reached, triangles / 20);
-    tell_worst_case("triangles", triangles);
+    tell_tested(triangles, "triangles");
     tell_worst_case("reached_a_bin", reached);
     tell_worst_case("patches_whose_clusters_were_culled_from_behind", fewer_by_clusters);
     tell_worst_case("wrongly_left_out", 0);
@@ -79,7 +79,7 @@ TEST(ClusterCull, LeavesNoTriangleOutThatReachesABin) {
 TEST(OcclusionStress, ShowsWhatAnyGapInAWallShows) {
     std::mt19937 random(42);
     constexpr float kDeep = 256;
-    uint64_t occluded = 0, triangles = 0, seen_through = 0;
+    uint64_t samples = 0, occluded = 0, triangles = 0, seen_through = 0;
     for (int round = 0; round < 150 * stress_scale(); ++round) {
         Mesh wall, crowd;
         const int cells = 1 + int(random() % 30), size = 192;
@@ -113,6 +113,7 @@ TEST(OcclusionStress, ShowsWhatAnyGapInAWallShows) {
         options.skips.occlusion = false;
         const Picture plain = draw_frame(Frame(options, draws), pattern);
         ASSERT_EQ(draw_frame(with, pattern), plain) << "round " << round << ", " << cells << " cells, gap " << gap;
+        samples += plain.id.size();
         occluded += with.counts().culled_occluded;
         triangles += with.counts().triangles;
         seen_through +=
@@ -120,6 +121,7 @@ TEST(OcclusionStress, ShowsWhatAnyGapInAWallShows) {
     }
     EXPECT_GT(occluded, triangles / 20);
     EXPECT_GT(seen_through, 1000u);
+    tell_tested(samples);
     tell_worst_case("occluded_of_triangles", std::to_string(occluded) + " of " + std::to_string(triangles));
     tell_worst_case("samples_that_show_the_crowd", seen_through);
     tell_worst_case("samples_that_differ", 0);
