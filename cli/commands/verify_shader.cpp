@@ -117,7 +117,7 @@ class VerifyShaderCommand : public Command {
         if (!output_.empty()) scenes::write_file(output_, std::as_bytes(std::span(run.results)));
         const bool hardware = suite.name == kHardwareSuite;
         if (!hardware && !run.unsupported.empty())
-            throw scenes::InputError(port.path + ": it samples images (binding 5 or 6), and the device has none such as texture '" +
+            throw scenes::InputError(port.path + ": it samples images (bindings 5 to 8), and the device has none such as texture '" +
                                      suite.textures[run.unsupported[0]].name() + "'");
         SuiteVerdict verdict = judge_results(suite, run.results);
         std::erase_if(verdict.failures, [&](const CaseFailure& failure) {

@@ -1,7 +1,9 @@
 #include "cli/vectors/diagnosis.h"
 
 #include "cli/vectors/expectation.h"
+#include "cli/vectors/hardware_report.h"
 #include "cli/vectors/judge.h"
+#include "cli/vectors/legal_case.h"
 #include "texunit/srgb.h"
 
 #include <algorithm>
@@ -354,6 +356,18 @@ void try_neighbours(const Suspect& s, Detective& detective) {
     }
 }
 
+/// Mistakes of whole lookups that cases cannot be changed to show, such as clamped edges of cube maps.
+void try_mistakes(const Suspect& s, Detective& detective) {
+    constexpr texunit::LegalPrecision kPorts{
+        .coordinate_bits = 22, .subtexel_bits = 12, .lod_bits = 9, .approximate_scale = false, .colour_threshold = 1e-4};
+    if (s.record.op != PortOp::Sample || s.record.ellipse > 0) return;
+    const bool hardware = s.suite.name == kHardwareSuite;
+    const std::string cause =
+        likely_cause(judged_texture(s.suite, s.record), sampler_of(s.record), judged_lookup(s.record), judged_colour(s.came.value),
+                     hardware ? legal_precision(s.suite, s.record, kLeastPrecision) : kPorts);
+    if (!cause.empty()) detective.keep(cause);
+}
+
 bool is_zero(const PortResult& result) { return std::memcmp(&result, std::array<char, sizeof(PortResult)>{}.data(), sizeof(result)) == 0; }
 
 bool has_nan(const PortResult& result, uint32_t judged) {
@@ -387,6 +401,7 @@ std::vector<std::string> possible_causes(const Suite& suite, size_t index, std::
     if (is_zero(suspect.came)) detective.keep("nothing was written");
     if (has_nan(suspect.came, suspect.expectation.judged))
         detective.keep("not a number: 0/0, 0 times infinity or the logarithm of a negative number");
+    if (detective.found().empty()) try_mistakes(suspect, detective);
     return detective.found();
 }
 

@@ -133,9 +133,8 @@ SuiteTexture read_texture(const std::string& path, const std::string& name, cons
     if (shape.cube && (shape.layers % 6 != 0 || shape.width != shape.height || shape.depth > 1))
         fail(path, "texture '" + name + "' is no cube map");
     const auto format = Format(record.format);
-    size_t count = 0, bytes = 0;
+    size_t bytes = 0;
     for (int level = 0; level < shape.levels; ++level) {
-        count += texels_of_level(shape, level);
         bytes +=
             size_t(texunit::stored_bytes(format, texunit::level_extent(shape.width, level), texunit::level_extent(shape.height, level))) *
             size_t(slice_count(shape, level));
