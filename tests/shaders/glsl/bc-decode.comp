@@ -1,14 +1,10 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // The port of suite bc-decode: texels of compressed blocks.
-#include "contract.glsl"
+#include "each_case.glsl"
 #include "blocks.glsl"
 
-void main() {
-    uint index = gl_GlobalInvocationID.x;
-    if (index >= case_count) return;
-    index += first_case;
-    uint op = case_uint(index, 0u);
+Result answer(uint op, uint index) {
     Result r = no_result();
     if (op == OP_BLOCK_TEXEL) {
         uint number = case_uint(index, 1u);
@@ -20,5 +16,5 @@ void main() {
         if (block_words(format) == 4u) block = uvec4(block.xy, stored_words[at + 2u], stored_words[at + 3u]);
         r.value = decode_texel(format, block, texel.x % 4u + 4u * (texel.y % 4u));
     }
-    write_result(index, r);
+    return r;
 }

@@ -1,14 +1,10 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // The port of suite noise: numbers of two dimensions.
-#include "contract.glsl"
+#include "each_case.glsl"
 #include "noise.glsl"
 
-void main() {
-    uint index = gl_GlobalInvocationID.x;
-    if (index >= case_count) return;
-    index += first_case;
-    uint op = case_uint(index, 0u);
+Result answer(uint op, uint index) {
     Result r = no_result();
     if (op == OP_NOISE_PAIR) {
         RandomAddress a = RandomAddress(uvec2(case_uint(index, 47u), case_uint(index, 48u)), case_uint(index, 49u), case_uint(index, 50u),
@@ -16,5 +12,5 @@ void main() {
         uvec2 bits = noise_pair(case_uint(index, 53u), a, case_uint(index, 54u));
         r.value = vec4(unit_float(bits.x), unit_float(bits.y), 0.0, 0.0);
     }
-    write_result(index, r);
+    return r;
 }

@@ -1,15 +1,8 @@
 // The port of suite bc-decode: texels of compressed blocks.
-// include "contract.wgsl"
-
+// include "each_case.wgsl"
 // include "blocks.wgsl"
 
-@compute @workgroup_size(64)
-fn main(@builtin(global_invocation_id) id: vec3u) {
-    let index = id.x;
-    if (index >= case_count()) {
-        return;
-    }
-    let op: u32 = case_uint(index, 0u);
+fn answer(op: u32, index: u32) -> Result {
     var r: Result = no_result();
     if (op == OP_BLOCK_TEXEL) {
         let number: u32 = case_uint(index, 1u);
@@ -24,5 +17,5 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
         }
         r.value = decode_texel(format, block, (texel.x % 4u) + (4u * (texel.y % 4u)));
     }
-    write_result(index, r);
+    return r;
 }
