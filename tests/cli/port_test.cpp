@@ -16,6 +16,7 @@
 #include <span>
 #include <string>
 #include <unistd.h>
+#include <utility>
 
 namespace rawtexel::test {
 namespace {
@@ -95,6 +96,19 @@ TEST(PortRun, FindsTheFaultsOfTheExample) {
     for (const char* part : {"index mirror: ", "likeliest cause: mirror off by one: the edge texel is not repeated",
                              "likeliest cause: coordinates scaled before their whole repeats are taken away"})
         EXPECT_NE(tried.out.find(part), std::string::npos) << part << "\n" << tried.out;
+    // Of every group that fails the cause is known, and the right one.
+    for (const auto& [group, cause] : {std::pair{"nearest mirror", "mirror off by one"},
+                                       {"texel edges mirror", "mirror off by one"},
+                                       {"bilinear mirror", "mirror off by one"},
+                                       {"two wraps", "mirror off by one"},
+                                       {"far from the origin", "coordinates scaled before"},
+                                       {"not finite", "a coordinate that is not finite"}}) {
+        const size_t at = tried.out.find("\n  " + std::string(group) + ": ");
+        ASSERT_NE(at, std::string::npos) << group << "\n" << tried.out;
+        const std::string line = "    likeliest cause: ";
+        const size_t named = tried.out.find("\n" + line, at) + 1 + line.size();
+        EXPECT_EQ(tried.out.substr(named, std::string(cause).size()), cause) << group;
+    }
 }
 
 TEST(PortRun, RefusesWhatIsNoShaderOfTheContract) {

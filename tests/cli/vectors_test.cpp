@@ -240,6 +240,30 @@ TEST(Verdicts, TellCaseIntervalAnswerAndCause) {
     EXPECT_EQ(verdict["failures"][0]["fields"][0]["came"], 1);
 }
 
+// A sampler that gives a colour and nothing else can be judged by it.
+TEST(Verdicts, AreOfTheFieldsThatAreAskedFor) {
+    const Suite suite = *cli::make_suite("kernels");
+    std::vector<PortResult> answers = right_answers(suite);
+    for (PortResult& answer : answers) answer.x = answer.y = answer.level = 77, answer.weight = -1;
+    const TemporaryFolder folder;
+    const std::string file = folder.write("answers.bin", bytes_of(answers));
+    const auto judged = [&](const std::string& fields) {
+        return run({"verify-shader", "--suite", "kernels", "--outputs", file, "--fields", fields});
+    };
+    EXPECT_EQ(run({"verify-shader", "--suite", "kernels", "--outputs", file}).code, 1);
+    EXPECT_EQ(judged("value").code, 0);
+    const Outcome weights = judged("value,weight");
+    EXPECT_EQ(weights.code, 1);
+    EXPECT_NE(weights.out.find("      weight: expected "), std::string::npos) << weights.out;
+    EXPECT_EQ(weights.out.find("      level: "), std::string::npos) << weights.out;
+    answers[3].value[2] += 1;
+    write_file(file, bytes_of(answers));
+    EXPECT_EQ(judged("value").code, 1);
+    EXPECT_EQ(why_not_failed(judged("colour"), 2, "--fields: unknown value 'colour'"), "");
+    EXPECT_EQ(why_not_failed(judged(","), 2, "--fields: unknown value ''"), "");
+    EXPECT_EQ(why_not_failed(judged("bits"), 2, "no case of kernels decides any of them"), "");
+}
+
 TEST(Verdicts, NeedNoVulkanForOutputs) {
     const Suite suite = *cli::make_suite("srgb");
     const TemporaryFolder folder;
