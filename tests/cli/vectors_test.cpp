@@ -264,6 +264,29 @@ TEST(Verdicts, AreOfTheFieldsThatAreAskedFor) {
     EXPECT_EQ(why_not_failed(judged("bits"), 2, "no case of kernels decides any of them"), "");
 }
 
+// A folder with the answers to every suite: one line each, and the details of that which fails.
+TEST(Verdicts, AreOfEverySuiteThatAFolderAnswers) {
+    const TemporaryFolder folder;
+    for (const cli::SuiteInfo& info : cli::all_suites()) {
+        std::vector<PortResult> answers = right_answers(*cli::make_suite(info.name));
+        if (info.name == "triplanar") answers[5].x = 9;
+        folder.write(std::string(info.name) + ".bin", bytes_of(answers));
+    }
+    const Outcome outcome = run({"verify-shader", "--suite", "all", "--outputs", folder.path()});
+    EXPECT_EQ(outcome.code, 1) << outcome.err;
+    for (const cli::SuiteInfo& info : cli::all_suites()) {
+        const std::string head = std::string(info.name) + " (" + (folder / (std::string(info.name) + ".bin")) + "): ";
+        const size_t line = outcome.out.find(head);
+        ASSERT_NE(line, std::string::npos) << info.name << "\n" << outcome.out;
+        const std::string verdict = outcome.out.substr(line, outcome.out.find('\n', line) - line);
+        EXPECT_TRUE(verdict.ends_with(info.name == "triplanar" ? "cases are not legal" : "all legal")) << verdict;
+    }
+    std::filesystem::remove(folder / "noise.bin");
+    const Outcome missing = run({"verify-shader", "--suite", "all", "--outputs", folder.path()});
+    EXPECT_EQ(missing.code, 3);
+    EXPECT_NE(missing.err.find("noise.bin: cannot be opened"), std::string::npos) << missing.err;
+}
+
 TEST(Verdicts, NeedNoVulkanForOutputs) {
     const Suite suite = *cli::make_suite("srgb");
     const TemporaryFolder folder;
