@@ -335,6 +335,19 @@ TEST(VectorFiles, AreRefusedWhereTheyAreDamaged) {
     EXPECT_EQ(refused("cases.bin", set_word(2, 9), "case 0: a wrap that there is not"), "");
     EXPECT_EQ(refused("cases.bin", set_word(14, 1000), "case 0: a number of probes"), "");
     EXPECT_EQ(refused("textures.bin", set_word(0, 0), "an extent"), "");
+    // A case of another op: an index that no texture has.
+    const auto set_index = [](int32_t index, int32_t extent) {
+        return [=](std::string& bytes) {
+            CaseRecord record;
+            record.op = PortOp::WrapIndex;
+            record.index = index, record.extent = extent;
+            std::memcpy(bytes.data(), &record, sizeof(record));
+        };
+    };
+    EXPECT_EQ(refused("cases.bin", set_index(std::numeric_limits<int32_t>::min(), 8), "case 0: an index beyond 2^30"), "");
+    EXPECT_EQ(refused("cases.bin", set_index(3, 0), "case 0: an axis of no texels"), "");
+    EXPECT_EQ(refused("cases.bin", set_index(3, std::numeric_limits<int32_t>::max()), "case 0: an axis of no texels or more than 2^24"),
+              "");
     std::filesystem::remove(suite + "/expected.bin");
     EXPECT_EQ(why_not_failed(run(verify), 3, "expected.bin"), "");
 }
