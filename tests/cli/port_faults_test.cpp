@@ -150,7 +150,7 @@ const std::vector<SeededFault>& seeded_faults() {
          "edges of faces clamped"},
         {"SliceWithTheNumberOfX",
          "adversarial",
-         {{"draw", "n.tap = case_vec3(index, 35u);", "n.tap = case_vec3(index, 35u).xyx;"}},
+         {{"draw", "n.tap = case_vec3(index, CASE_NUMBER_X);", "n.tap = case_vec3(index, CASE_NUMBER_X).xyx;"}},
          "z is drawn with the number of x"},
         {"SizeOfAnotherLanesLevel",
          "adversarial",

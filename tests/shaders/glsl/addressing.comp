@@ -7,6 +7,6 @@
 Result answer(uint op, uint index) {
     Result r = no_result();
     if (op == OP_SAMPLE) r = filter_case(index);
-    if (op == OP_WRAP_INDEX) r.texel.x = wrap_index(case_uint(index, 2u), case_int(index, 45u), case_int(index, 46u));
+    if (op == OP_WRAP_INDEX) r.texel.x = wrap_index(case_uint(index, CASE_WRAP_S), case_int(index, CASE_INDEX), case_int(index, CASE_EXTENT));
     return r;
 }

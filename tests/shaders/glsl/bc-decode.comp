@@ -7,9 +7,9 @@
 Result answer(uint op, uint index) {
     Result r = no_result();
     if (op == OP_BLOCK_TEXEL) {
-        uint number = case_uint(index, 1u);
+        uint number = case_uint(index, CASE_TEXTURE);
         TextureShape t = texture_shape(number);
-        uvec2 texel = uvec2(case_uint(index, 45u), case_uint(index, 46u));
+        uvec2 texel = uvec2(case_uint(index, CASE_INDEX), case_uint(index, CASE_EXTENT));
         uint format = texture_format(number), columns = (uint(t.extent.x) + 3u) / 4u;
         uint at = texture_first_word(number) + block_words(format) * (texel.x / 4u + columns * (texel.y / 4u));
         uvec4 block = uvec4(stored_words[at], stored_words[at + 1u], 0u, 0u);

@@ -9,7 +9,7 @@ void main() {
     uint index = gl_GlobalInvocationID.x;
     if (index >= case_count) return;
     index += first_case;
-    write_result(index, answer(case_uint(index, 0u), index));
+    write_result(index, answer(case_uint(index, CASE_OP), index));
 }
 
 #endif

@@ -23,9 +23,9 @@ void main() {
     // Compilers that cannot tell how often the loop runs do not write it out four times, once for each kind of image.
     for (uint turn = 0u; turn < min(4u, case_count); ++turn) {
         uint index = first_case + min(first_of_quad + turn, case_count - 1u);
-        vec3 at = case_vec3(index, 25u), dx = case_vec3(index, 28u), dy = case_vec3(index, 31u);
+        vec3 at = case_vec3(index, CASE_AT), dx = case_vec3(index, CASE_DX), dy = case_vec3(index, CASE_DY);
         Result r = no_result();
-        r.value = ask(texture_shape(case_uint(index, 1u)), at + pixel.x * dx + pixel.y * dy, case_float(index, 34u), dx, dy);
+        r.value = ask(texture_shape(case_uint(index, CASE_TEXTURE)), at + pixel.x * dx + pixel.y * dy, case_float(index, CASE_LAYER), dx, dy);
         if (lane == first_of_quad && lane + turn < case_count) write_result(index, r);
     }
 }

@@ -8,7 +8,7 @@
 Result answer(uint op, uint index) {
     Result r = no_result();
     if (op == OP_SAMPLE) r = filter_case(index);
-    if (op == OP_SRGB_DECODE) r.value.x = srgb_to_linear(float(case_int(index, 45u)) / 255.0);
-    if (op == OP_SRGB_ENCODE) r.bits = encode_srgb8(case_float(index, 25u));
+    if (op == OP_SRGB_DECODE) r.value.x = srgb_to_linear(float(case_int(index, CASE_INDEX)) / 255.0);
+    if (op == OP_SRGB_ENCODE) r.bits = encode_srgb8(case_float(index, CASE_AT));
     return r;
 }

@@ -7,8 +7,8 @@
 Result answer(uint op, uint index) {
     Result r = no_result();
     if (op == OP_PLANE) {
-        vec3 weights = plane_weights(case_vec3(index, 25u), case_uint(index, 55u));
-        r.texel.x = draw_plane(weights, case_float(index, 35u));
+        vec3 weights = plane_weights(case_vec3(index, CASE_AT), case_uint(index, CASE_COUNT));
+        r.texel.x = draw_plane(weights, case_float(index, CASE_NUMBER_X));
         r.value = vec4(weights, 0.0);
     }
     return r;

@@ -7,5 +7,5 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
     if (index >= case_count()) {
         return;
     }
-    write_result(index, answer(case_uint(index, 0u), index));
+    write_result(index, answer(case_uint(index, CASE_OP), index));
 }

@@ -5,9 +5,9 @@
 fn answer(op: u32, index: u32) -> Result {
     var r: Result = no_result();
     if (op == OP_BLOCK_TEXEL) {
-        let number: u32 = case_uint(index, 1u);
+        let number: u32 = case_uint(index, CASE_TEXTURE);
         let t: TextureShape = texture_shape(number);
-        let texel: vec2u = vec2u(case_uint(index, 45u), case_uint(index, 46u));
+        let texel: vec2u = vec2u(case_uint(index, CASE_INDEX), case_uint(index, CASE_EXTENT));
         let format: u32 = texture_format(number);
         let columns: u32 = (u32(t.extent.x) + 3u) / 4u;
         let at: u32 = texture_first_word(number) + (block_words(format) * ((texel.x / 4u) + (columns * (texel.y / 4u))));

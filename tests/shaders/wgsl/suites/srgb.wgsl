@@ -9,10 +9,10 @@ fn answer(op: u32, index: u32) -> Result {
         r = filter_case(index);
     }
     if (op == OP_SRGB_DECODE) {
-        r.value.x = srgb_to_linear(f32(case_int(index, 45u)) / 255.0);
+        r.value.x = srgb_to_linear(f32(case_int(index, CASE_INDEX)) / 255.0);
     }
     if (op == OP_SRGB_ENCODE) {
-        r.bits = encode_srgb8(case_float(index, 25u));
+        r.bits = encode_srgb8(case_float(index, CASE_AT));
     }
     return r;
 }
