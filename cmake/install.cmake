@@ -19,7 +19,7 @@ endif()
 
 # Ports of the texture unit to shading languages, for users to take (docs/porting.md).
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/tests/shaders" DESTINATION "${CMAKE_INSTALL_DATADIR}/rawtexel"
-  FILES_MATCHING PATTERN "*.glsl" PATTERN "*.comp" PATTERN "*.wgsl" PATTERN node_modules EXCLUDE)
+  FILES_MATCHING PATTERN "*.glsl" PATTERN "*.comp" PATTERN "*.wgsl" PATTERN run.mjs PATTERN package.json PATTERN node_modules EXCLUDE)
 
 configure_package_config_file(cmake/rawtexel-config.cmake.in rawtexel-config.cmake INSTALL_DESTINATION "${package_dir}")
 write_basic_package_version_file(rawtexel-config-version.cmake COMPATIBILITY SameMinorVersion)

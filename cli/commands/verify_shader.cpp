@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 
 namespace rawtexel::cli {
 namespace {
@@ -37,6 +38,28 @@ std::vector<PortResult> read_outputs(const std::string& path, const Suite& suite
     std::vector<PortResult> results(suite.cases.size());
     std::memcpy(results.data(), bytes.data(), bytes.size());
     return results;
+}
+
+/// Bits of the words of fields with these names, separated by commas.
+uint32_t parse_fields(const std::string& text) {
+    uint32_t words = 0;
+    std::vector<std::string> names;
+    for (const RecordField& field : result_fields()) names.emplace_back(field.name);
+    std::istringstream list(text);
+    for (std::string name; std::getline(list, name, ',');) {
+        const auto field = std::ranges::find(result_fields(), name, &RecordField::name);
+        if (field == result_fields().end()) throw unknown_value("--fields", name, names);
+        for (int word = field->word; word < field->word + field->count; ++word) words |= judges(size_t(word));
+    }
+    if (words == 0) throw UsageError("--fields: no field is named");
+    return words;
+}
+
+/// Leaves the words to be judged that are among these.
+void judge_only(uint32_t words, Suite& suite) {
+    uint32_t judged = 0;
+    for (Expectation& expectation : suite.expected) judged |= expectation.judged &= words;
+    if (judged == 0) throw UsageError("--fields: no case of " + suite.name + " decides any of them");
 }
 
 class VerifyShaderCommand : public Command {
@@ -63,6 +86,9 @@ class VerifyShaderCommand : public Command {
         line.option("--spirv", "FILE", "a SPIR-V compute shader with the bindings of docs/porting.md", from(Source::Spirv));
         line.option("--glsl", "FILE", "the same in GLSL, compiled by glslangValidator", from(Source::Glsl));
         line.option("--outputs", "FILE", "answers made elsewhere, 64 bytes a case; asks for no Vulkan", from(Source::Outputs));
+        line.option("--fields", "LIST",
+                    "judges these fields of the answers alone, such as value or x,y,level (default: all that a case decides)",
+                    [this](const std::string& text) { fields_ = parse_fields(text); });
         line.option("--device", "NAME", "a part of the device's name (default: the first that is no CPU, else the first)",
                     [this](const std::string& text) { device_ = text; });
         line.option("-o,--output", "FILE", "writes the answers, as --outputs takes them",
@@ -106,7 +132,8 @@ class VerifyShaderCommand : public Command {
         return holds ? kDone : kCheckFailed;
     }
 
-    bool verify(const Suite& suite, const Port& port, const Invocation& invocation) const {
+    bool verify(Suite suite, const Port& port, const Invocation& invocation) const {
+        if (fields_ != 0) judge_only(fields_, suite);
         PortRun run;
         if (port.source == Source::Outputs) {
             run = {port.path, read_outputs(port.path, suite), {}};
@@ -117,7 +144,7 @@ class VerifyShaderCommand : public Command {
         if (!output_.empty()) scenes::write_file(output_, std::as_bytes(std::span(run.results)));
         const bool hardware = suite.name == kHardwareSuite;
         if (!hardware && !run.unsupported.empty())
-            throw scenes::InputError(port.path + ": it samples images (binding 5 or 6), and the device has none such as texture '" +
+            throw scenes::InputError(port.path + ": it samples images (bindings 5 to 8), and the device has none such as texture '" +
                                      suite.textures[run.unsupported[0]].name() + "'");
         SuiteVerdict verdict = judge_results(suite, run.results);
         std::erase_if(verdict.failures, [&](const CaseFailure& failure) {
@@ -137,6 +164,7 @@ class VerifyShaderCommand : public Command {
 
     std::string suite_, device_, output_;
     std::optional<Port> port_;
+    uint32_t fields_ = 0;  ///< bits of the words that are judged; 0: all
     bool json_ = false;
 };
 

@@ -1,7 +1,9 @@
 #include "cli/vectors/diagnosis.h"
 
 #include "cli/vectors/expectation.h"
-#include "cli/vectors/judge.h"
+#include "cli/vectors/hardware_report.h"
+#include "cli/vectors/legal_case.h"
+#include "cli/vectors/suspect.h"
 #include "texunit/srgb.h"
 
 #include <algorithm>
@@ -19,125 +21,7 @@ using texunit::KernelKind;
 using texunit::Shape;
 using texunit::Wrap;
 
-/// A case under suspicion.
-struct Suspect {
-    const Suite& suite;
-    size_t index;
-    const CaseRecord& record;
-    const Expectation& expectation;
-    const PortResult& came;
-
-    bool looks_up() const {
-        return record.op == PortOp::Sample || record.op == PortOp::Draw || record.op == PortOp::Mean || record.op == PortOp::Shade;
-    }
-    bool draws() const { return record.op == PortOp::Draw || record.op == PortOp::Mean; }
-    const Shape& shape() const { return suite.textures[record.texture].shape(); }
-};
-
-/// Whether an answer is the one that came: texels and codes exactly, floats as far as precision leaves them free.
-bool explains(const Suspect& suspect, const PortResult& answer) {
-    Expectation e = suspect.expectation;
-    e.expected = answer;
-    for (const RecordField& field : result_fields()) {
-        for (auto word = size_t(field.word); word < size_t(field.word + field.count); ++word) {
-            const auto at = 4 * word;
-            char* const least = reinterpret_cast<char*>(&e.least) + at;
-            char* const most = reinterpret_cast<char*>(&e.most) + at;
-            const char* const from = reinterpret_cast<const char*>(&answer) + at;
-            if (field.type != WordType::Float) {
-                std::memcpy(least, from, 4), std::memcpy(most, from, 4);
-                continue;
-            }
-            float value, low, high;
-            std::memcpy(&value, from, 4), std::memcpy(&low, least, 4), std::memcpy(&high, most, 4);
-            const float room = 0.75f * (high - low) + 1e-6f;
-            low = value - room, high = value + room;
-            std::memcpy(least, &low, 4), std::memcpy(most, &high, 4);
-        }
-    }
-    return illegal_words(e, suspect.came) == 0;
-}
-
 using Change = std::function<void(CaseRecord&)>;
-
-class Detective {
-  public:
-    explicit Detective(const Suspect& suspect) : suspect_(suspect) {}
-
-    /// Keeps the fault's name if it explains what came.
-    void try_answer(const std::string& name, const PortResult& answer) {
-        // A fault that changes nothing here explains nothing.
-        if (illegal_words(suspect_.expectation, answer) != 0 && explains(suspect_, answer)) keep(name);
-    }
-    void try_change(const std::string& name, const Change& change) {
-        CaseRecord record = suspect_.record;
-        change(record);
-        if (record == suspect_.record) return;
-        if (record.op == PortOp::Draw) {
-            const texunit::SamplerState sampler = sampler_of(record);
-            if (!refusal(sampler.estimator, sampler.minify).empty() || !refusal(sampler.estimator, sampler.magnify).empty()) return;
-        }
-        try_answer(name, evaluate(suspect_.suite, record));
-    }
-    void keep(const std::string& name) {
-        if (std::ranges::find(found_, name) == found_.end()) found_.push_back(name);
-    }
-    const std::vector<std::string>& found() const { return found_; }
-
-  private:
-    const Suspect& suspect_;
-    std::vector<std::string> found_;
-};
-
-/// What faulty code makes of index i in an axis of n texels.
-struct WrappedIndex {
-    const char* fault;
-    int texel;
-};
-std::vector<WrappedIndex> faulty_wraps(int i, int n) {
-    const int period = 2 * n, place = (i % period + period) % period;
-    return {{"the remainder of a negative index is negative", i % n},
-            {"wrap off by one for negative indices", i < 0 ? (-i) % n : i % n},
-            {"wrap off by one for negative indices", i < 0 ? n - 1 - (-i) % n : i % n},
-            {"wrap off by one for negative indices", (i % n + n - (i < 0 ? 1 : 0)) % n},
-            {"wrap off by one for negative indices", i < 0 ? std::min(-i, n - 1) : std::min(i, n - 1)},
-            {"mirror off by one: the edge texel is not repeated", place < n ? place : period - place},
-            {"mirror off by one: the edge texel is not repeated", place < n ? place : std::min(period - place, n - 1)},
-            {"mirror without its second half turned round", place % n},
-            {"texel 0 out of reach", std::clamp(i, std::min(1, n - 1), n - 1)},
-            {"the last texel out of reach", std::clamp(i, 0, std::max(n - 2, 0))},
-            {"one texel beyond the end", std::clamp(i, 0, n)},
-            {"the border clamped to the edge", std::clamp(i, 0, n - 1)}};
-}
-
-void try_wrapped_indices(const Suspect& s, Detective& detective) {
-    for (const WrappedIndex& wrapped : faulty_wraps(s.record.index, s.record.extent)) {
-        PortResult result;
-        result.x = wrapped.texel;
-        detective.try_answer(wrapped.fault, result);
-    }
-    for (uint32_t wrap = 0; wrap < 5; ++wrap)
-        detective.try_change("wrapped as " + std::string(to_string(Wrap(wrap))), [=](CaseRecord& c) { c.wrap_s = wrap; });
-}
-
-/// Of lookups of one texel: whether their indices were wrapped by faulty code. The texel may lie outside of the texture then, so that only
-/// its place tells.
-void try_wrapped_texels(const Suspect& s, Detective& detective) {
-    const Shape& shape = s.shape();
-    const PortResult& right = s.expectation.expected;
-    const bool nearest = s.record.magnify == 0 && s.record.minify == 0;
-    if ((s.expectation.judged & kJudgesTexel) == 0 || !nearest || shape.cube || shape.depth > 1 || right.x < 0) return;
-    if (s.came.x == right.x && s.came.y == right.y) return;
-    const auto wraps = [&](size_t axis) {
-        const int extent = texunit::level_extent(axis == 0 ? shape.width : shape.height, right.level);
-        const float u = std::isfinite(s.record.at[axis]) ? std::clamp(s.record.at[axis], -80.0f, 80.0f) : 0.0f;
-        return faulty_wraps(int(std::floor(u * float(extent))), extent);
-    };
-    const std::vector<WrappedIndex> x = wraps(0), y = wraps(1);
-    for (size_t n = 0; n < x.size(); ++n) {
-        if ((s.came.x == x[n].texel || s.came.x == right.x) && (s.came.y == y[n].texel || s.came.y == right.y)) detective.keep(x[n].fault);
-    }
-}
 
 void try_addresses(const Suspect& s, Detective& detective) {
     const Shape& shape = s.shape();
@@ -354,6 +238,27 @@ void try_neighbours(const Suspect& s, Detective& detective) {
     }
 }
 
+/// Mistakes of whole lookups that cases cannot be changed to show, such as clamped edges of cube maps.
+void try_mistakes(const Suspect& s, Detective& detective) {
+    constexpr texunit::LegalPrecision kPorts{
+        .coordinate_bits = 22, .subtexel_bits = 12, .lod_bits = 9, .approximate_scale = false, .colour_threshold = 1e-4};
+    if (s.record.op != PortOp::Sample || s.record.ellipse > 0) return;
+    const bool hardware = s.suite.name == kHardwareSuite;
+    const std::string cause =
+        likely_cause(judged_texture(s.suite, s.record), sampler_of(s.record), judged_lookup(s.record), judged_colour(s.came.value),
+                     hardware ? legal_precision(s.suite, s.record, kLeastPrecision) : kPorts);
+    if (!cause.empty()) detective.keep(cause);
+}
+
+/// What a port makes of numbers that are not finite is its device's affair: only that it is not right can be told. Null where all are.
+const char* not_finite(const Suspect& s) {
+    const auto finite = [](const std::array<float, 3>& v) { return std::ranges::all_of(v, [](float x) { return std::isfinite(x); }); };
+    if (!s.looks_up()) return nullptr;
+    if (!finite(s.record.at)) return "a coordinate that is not finite, not read as 0";
+    if (!finite(s.record.dx) || !finite(s.record.dy)) return "a derivative that is not finite, not taken for the last level";
+    return nullptr;
+}
+
 bool is_zero(const PortResult& result) { return std::memcmp(&result, std::array<char, sizeof(PortResult)>{}.data(), sizeof(result)) == 0; }
 
 bool has_nan(const PortResult& result, uint32_t judged) {
@@ -368,14 +273,15 @@ bool has_nan(const PortResult& result, uint32_t judged) {
 std::vector<std::string> possible_causes(const Suite& suite, size_t index, std::span<const PortResult> results) {
     const Suspect suspect{suite, index, suite.cases[index], suite.expected[index], results[index]};
     Detective detective(suspect);
-    if (suspect.record.op == PortOp::WrapIndex) try_wrapped_indices(suspect, detective);
+    if (const char* const why = not_finite(suspect)) return {why};
+    if (suspect.record.op == PortOp::WrapIndex) try_wraps(suspect, detective);
     if (suspect.looks_up()) {
         try_addresses(suspect, detective);
         try_levels(suspect, detective);
         try_footprints(suspect, detective);
         try_numbers(suspect, detective);
         try_neighbours(suspect, detective);
-        try_wrapped_texels(suspect, detective);
+        try_wraps(suspect, detective);
         try_kernels(suspect, detective);
     }
     if (suspect.record.op == PortOp::Random || suspect.record.op == PortOp::NoisePair) try_random(suspect, detective);
@@ -387,6 +293,7 @@ std::vector<std::string> possible_causes(const Suite& suite, size_t index, std::
     if (is_zero(suspect.came)) detective.keep("nothing was written");
     if (has_nan(suspect.came, suspect.expectation.judged))
         detective.keep("not a number: 0/0, 0 times infinity or the logarithm of a negative number");
+    if (detective.found().empty()) try_mistakes(suspect, detective);
     return detective.found();
 }
 

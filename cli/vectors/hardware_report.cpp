@@ -1,5 +1,6 @@
 #include "cli/vectors/hardware_report.h"
 
+#include "cli/vectors/legal_case.h"
 #include "texunit/bc_rounding.h"
 #include "texunit/block_codec.h"
 #include "texunit/texel_value.h"
@@ -17,14 +18,11 @@ namespace {
 
 using texunit::Format;
 using Json = nlohmann::ordered_json;
-using Colour = std::array<double, 4>;
 
 constexpr std::array kBits = {8, 7, 6, 5, 4};
 
 /// Variances of the pixel filters that an implementation may mean (docs/anisotropy.md).
 constexpr std::array kVariances = {1.0 / 24, 1.0 / 16, 1.0 / 12, 1.0 / 8, 1.0 / 6, 1.0 / 4, 1.0 / 3, 1.0 / 2, 2.0 / 3, 1.0, 4.0 / 3};
-
-Colour colour_of(const std::array<float, 4>& value) { return {double(value[0]), double(value[1]), double(value[2]), double(value[3])}; }
 
 double largest_difference(const std::array<float, 4>& a, const std::array<float, 4>& b) {
     double largest = 0;
@@ -141,7 +139,7 @@ bool is_compressed(const Suite& suite, const CaseGroup& group) {
 }
 
 std::string agreement_text(const HardwareAgreement& a) {
-    if (!a.asked) return "not asked, the device has no such images";
+    if (!a.asked) return "not asked: the device has no such images, or the shader no binding for them";
     if (a.footprint) {
         const auto& f = *a.footprint;
         return print("%.1f", 100 * f.error) + " % from the ellipse of S2 = " + print("%.3f", f.s2) + " (our 16 probes " +
@@ -165,16 +163,15 @@ std::string agreement_text(const HardwareAgreement& a) {
 
 texunit::LegalVerdict judge_hardware(const Suite& suite, const CaseRecord& record, const PortResult& came,
                                      const HardwarePrecision& precision) {
-    texunit::Texture& texture = suite.textures[record.texture].texture();
-    const texunit::JudgedTexture judged{texture.shape(),
-                                        [&](int level, int slice, int x, int y) { return colour_of(texture.texel(level, slice, x, y)); }};
-    const auto widen = [](const std::array<float, 3>& v) { return std::array<double, 3>{double(v[0]), double(v[1]), double(v[2])}; };
-    const texunit::JudgedLookup lookup{widen(record.at), widen(record.dx), widen(record.dy), double(record.layer)};
-    return judge_lookup(judged, sampler_of(record), lookup, colour_of(came.value),
-                        {.subtexel_bits = precision.subtexel_bits,
-                         .lod_bits = precision.lod_bits,
-                         .approximate_scale = !precision.exact_scale,
-                         .colour_threshold = hardware_threshold(suite, record)});
+    return judge_lookup(judged_texture(suite, record), sampler_of(record), judged_lookup(record), judged_colour(came.value),
+                        legal_precision(suite, record, precision));
+}
+
+texunit::LegalPrecision legal_precision(const Suite& suite, const CaseRecord& record, const HardwarePrecision& precision) {
+    return {.subtexel_bits = precision.subtexel_bits,
+            .lod_bits = precision.lod_bits,
+            .approximate_scale = !precision.exact_scale,
+            .colour_threshold = hardware_threshold(suite, record)};
 }
 
 double hardware_threshold(const Suite& suite, const CaseRecord& record) {

@@ -24,6 +24,11 @@ struct HardwarePrecision {
     int subtexel_bits = 8, lod_bits = 8;
     bool exact_scale = false;
 };
+/// Subtexel and level bits that every implementation has (Vulkan "Required Limits": subTexelPrecisionBits, mipmapPrecisionBits).
+inline constexpr HardwarePrecision kLeastPrecision{4, 4, false};
+
+texunit::LegalPrecision legal_precision(const Suite& suite, const CaseRecord& record, const HardwarePrecision& precision);
+
 /// The verdict of texunit's legal-interval verifier on an answer, for an implementation of this precision.
 texunit::LegalVerdict judge_hardware(const Suite& suite, const CaseRecord& record, const PortResult& came,
                                      const HardwarePrecision& precision);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace rawtexel::cli {
 namespace {
@@ -18,14 +19,9 @@ using texunit::SamplerState;
 using texunit::Shape;
 using texunit::Wrap;
 
-/// Subtexel and level bits that every implementation has (Vulkan "Required Limits": subTexelPrecisionBits, mipmapPrecisionBits).
-constexpr int kLeastBits = 4;
-
-uint32_t add_codes_texture(SuiteBuilder& builder, std::string name, int width, int height) {
-    Shape shape{.width = width, .height = height, .levels = texunit::full_level_count(width, height)};
-    size_t texels = 0;
-    for (int level = 0; level < shape.levels; ++level) texels += texels_of_level(shape, level);
-    std::vector<std::byte> codes(4 * texels);
+uint32_t add_codes_texture(SuiteBuilder& builder, std::string name, Shape shape) {
+    shape.levels = texunit::full_level_count(shape.width, shape.height, shape.depth);
+    std::vector<std::byte> codes(4 * texels_of(shape));
     for (std::byte& code : codes) code = std::byte(builder.bits() >> 24);
     return builder.add_texture({std::move(name), Format::RGBA8Unorm, shape, std::move(codes)});
 }
@@ -55,7 +51,7 @@ void add(SuiteBuilder& builder, const CaseRecord& record) {
     const bool compressed = texunit::info(suite.textures[record.texture].format()).block_compressed;
     texunit::LegalVerdict verdict;
     for (size_t c = 0; c < 4; ++c) verdict.least[c] = verdict.most[c] = double(e.expected.value[c]);
-    if (record.probes == 1 && !compressed) verdict = judge_hardware(suite, record, e.expected, {kLeastBits, kLeastBits, false});
+    if (record.probes == 1 && !compressed) verdict = judge_hardware(suite, record, e.expected, kLeastPrecision);
     for (size_t c = 0; c < 4 && record.probes == 1; ++c) {
         e.judged |= judges(12 + c);
         e.least.value[c] = std::min(float(verdict.least[c] - threshold), e.expected.value[c]);
@@ -78,6 +74,7 @@ CaseRecord case_of(uint32_t texture, const Kernel& kernel, MipMode mip, Wrap s, 
     return record;
 }
 
+/// Drivers compile a shader for every sampler, so that cases of one follow each other and there are few.
 constexpr std::array kWraps = {Wrap::Repeat, Wrap::MirroredRepeat, Wrap::ClampToEdge, Wrap::ClampToBorder};
 
 void add_filters(SuiteBuilder& builder, uint32_t square, uint32_t odd) {
@@ -129,6 +126,87 @@ void add_footprints(SuiteBuilder& builder, uint32_t noise) {
     }
 }
 
+void add_arrays(SuiteBuilder& builder) {
+    const Shape shape{.width = 32, .height = 24, .layers = 5};
+    const uint32_t array = add_codes_texture(builder, "array 32x24 of 5", shape);
+    for (const MipMode mip : {MipMode::None, MipMode::Linear}) {
+        builder.begin_group(mip == MipMode::None ? "array, layers" : "array, trilinear",
+                            "the nearest layer, and where there is none the first or the last; layers are not filtered");
+        for (int n = 0; n < 96; ++n) {
+            const size_t turn = size_t(n) / 24;
+            CaseRecord record = case_of(array, turn == 0 ? Kernel::Nearest : Kernel::Bilinear, mip, kWraps[turn], Wrap::Repeat);
+            record.at = {builder.between(-1, 2), builder.between(-1, 2), 0};
+            record.layer = builder.between(-2, float(shape.layers) + 1);
+            builder.draw_footprint(record, std::exp2(builder.between(-1, mip == MipMode::None ? 0.0f : 5.0f)), 1.5f);
+            add(builder, record);
+        }
+    }
+}
+
+/// Derivatives of `size` in texture coordinates at most, or of a direction.
+void draw_solid_footprint(SuiteBuilder& builder, CaseRecord& record, float size) {
+    for (size_t axis = 0; axis < 3; ++axis) record.dx[axis] = builder.between(-size, size), record.dy[axis] = builder.between(-size, size);
+}
+
+void add_volumes(SuiteBuilder& builder) {
+    const uint32_t volume = add_codes_texture(builder, "volume 16x12x9", {.width = 16, .height = 12, .depth = 9});
+    for (const auto& [name, kernel, mip] : {std::tuple{"volume, nearest", Kernel(Kernel::Nearest), MipMode::None},
+                                            {"volume, eight texels", Kernel(Kernel::Bilinear), MipMode::None},
+                                            {"volume, two levels", Kernel(Kernel::Bilinear), MipMode::Linear}}) {
+        builder.begin_group(name, "slices are weighed and wrapped as columns and rows are");
+        for (int n = 0; n < 96; ++n) {
+            const size_t turn = size_t(n) / 24;
+            CaseRecord record = case_of(volume, kernel, mip, kWraps[turn], kWraps[(turn + 1) % 4]);
+            record.wrap_r = uint32_t(kWraps[(turn + 2) % 4]);
+            record.at = {builder.between(-1, 2), builder.between(-1, 2), builder.between(-1, 2)};
+            draw_solid_footprint(builder, record, std::exp2(builder.between(-6, -1)));
+            add(builder, record);
+        }
+    }
+}
+
+/// A direction to a face's inside, or within `edge` texels of a face of `extent` from an edge or a corner of the cube.
+std::array<float, 3> draw_direction(SuiteBuilder& builder, int extent, float edge) {
+    std::array<float, 3> direction;
+    const auto major = size_t(builder.below(3)), beside = (major + 1 + size_t(builder.below(2))) % 3;
+    const bool corner = builder.chance(0.3f);
+    for (size_t axis = 0; axis < 3; ++axis) {
+        const float sign = builder.chance(0.5f) ? 1.0f : -1.0f, within = 1 - 2 * edge * builder.unit() / float(extent);
+        const bool at_edge = edge > 0 && (axis == beside || corner);
+        direction[axis] = sign * (axis == major ? 1.0f : at_edge ? within : 0.9f * builder.unit());
+    }
+    const float length = builder.between(0.5f, 2);
+    for (float& component : direction) component *= length;
+    return direction;
+}
+
+void add_cubes(SuiteBuilder& builder) {
+    constexpr int kExtent = 16;
+    const uint32_t cube = add_codes_texture(builder, "cube 16x16", {.width = kExtent, .height = kExtent, .layers = 6, .cube = true});
+    struct Topic {
+        const char *name, *about;
+        Kernel kernel;
+        MipMode mip;
+        float edge;  ///< as draw_direction has it
+    };
+    for (const Topic& topic :
+         {Topic{"cube, nearest", "the face of the largest component, and the texel there", Kernel::Nearest, MipMode::None, 0},
+          Topic{"cube, bilinear", "inside of faces and at their edges", Kernel::Bilinear, MipMode::None, 0},
+          Topic{"cube, seamless edges",
+                "texels beyond an edge are the neighbouring face's; at a corner three meet, and their mean stands for "
+                "the fourth",
+                Kernel::Bilinear, MipMode::None, 1},
+          Topic{"cube, two levels", "by the derivatives of coordinates on the face", Kernel::Bilinear, MipMode::Linear, 0}}) {
+        builder.begin_group(topic.name, topic.about);
+        for (int n = 0; n < 96; ++n) {
+            CaseRecord record = case_of(cube, topic.kernel, topic.mip, Wrap::ClampToEdge, Wrap::ClampToEdge);
+            record.at = draw_direction(builder, kExtent, topic.edge);
+            draw_solid_footprint(builder, record, std::exp2(builder.between(-6, topic.mip == MipMode::None ? -5.0f : -1.0f)));
+            add(builder, record);
+        }
+    }
+}
+
 void add_blocks(SuiteBuilder& builder) {
     for (const Format format :
          {Format::BC1RgbUnorm, Format::BC1RgbaUnorm, Format::BC2Unorm, Format::BC3Unorm, Format::BC4Unorm, Format::BC4Snorm,
@@ -149,10 +227,14 @@ void add_blocks(SuiteBuilder& builder) {
 
 Suite make_hardware_suite() {
     SuiteBuilder builder(kHardwareSuite, "the device's own texture unit, asked by textureGrad: legal is what Vulkan allows everywhere");
-    const uint32_t square = add_codes_texture(builder, "square 64x64", 64, 64), odd = add_codes_texture(builder, "odd 45x60", 45, 60);
+    const uint32_t square = add_codes_texture(builder, "square 64x64", {.width = 64, .height = 64}),
+                   odd = add_codes_texture(builder, "odd 45x60", {.width = 45, .height = 60});
     const uint32_t noise = add_filtered_texture(builder, "white noise 256x256", 256);
     add_filters(builder, square, odd);
     add_footprints(builder, noise);
+    add_arrays(builder);
+    add_volumes(builder);
+    add_cubes(builder);
     add_blocks(builder);
     return builder.take();
 }

@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <queue>
+#include <span>
 #include <tuple>
 
 namespace rawtexel::cli {
@@ -106,19 +106,19 @@ class LookupCollector final : public shading::LookupListener {
 /// Every texel as linear floats: whatever its file holds.
 SuiteTexture copy_texture(Texture& texture) {
     const texunit::Shape& shape = texture.shape();
-    std::vector<float> values;
+    std::vector<std::byte> bytes;
+    bytes.reserve(16 * texels_of(shape));
     for (int level = 0; level < shape.levels; ++level) {
         for (int slice = 0; slice < slice_count(shape, level); ++slice) {
             for (int y = 0; y < texunit::level_extent(shape.height, level); ++y) {
                 for (int x = 0; x < texunit::level_extent(shape.width, level); ++x) {
                     const std::array<float, 4> texel = texture.texel(level, slice, x, y);
-                    values.insert(values.end(), texel.begin(), texel.end());
+                    const auto added = std::as_bytes(std::span(texel));
+                    bytes.insert(bytes.end(), added.begin(), added.end());
                 }
             }
         }
     }
-    std::vector<std::byte> bytes(values.size() * 4);
-    std::memcpy(bytes.data(), values.data(), bytes.size());
     return {texture.name(), texunit::Format::RGBA32Float, shape, std::move(bytes)};
 }
 
@@ -141,8 +141,7 @@ Suite make_scene_suite(const std::string& name, const shading::Scene& scene, con
     uint64_t bytes = 0;
     for (const SeenLookup& lookup : seen) {
         if (!numbers.emplace(lookup.texture, uint32_t(numbers.size())).second) continue;
-        const texunit::Shape& shape = lookup.texture->shape();
-        for (int level = 0; level < shape.levels; ++level) bytes += 16 * texels_of_level(shape, level);
+        bytes += 16 * texels_of(lookup.texture->shape());
         if (bytes > kMostSceneTexels)
             throw scenes::InputError(name + ": its textures take more than " + std::to_string(kMostSceneTexels) + " bytes as floats");
         suite.textures.push_back(copy_texture(*lookup.texture));

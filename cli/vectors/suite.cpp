@@ -67,6 +67,12 @@ size_t texels_of_level(const Shape& shape, int level) {
            size_t(slice_count(shape, level));
 }
 
+size_t texels_of(const Shape& shape) {
+    size_t texels = 0;
+    for (int level = 0; level < shape.levels; ++level) texels += texels_of_level(shape, level);
+    return texels;
+}
+
 SuiteTexture::SuiteTexture(std::string name, Format format, const Shape& shape, std::vector<std::byte> bytes)
     : bytes_(std::make_shared<const std::vector<std::byte>>(std::move(bytes))) {
     assert(bytes_->size() == bytes_of(format, shape));
@@ -74,10 +80,14 @@ SuiteTexture::SuiteTexture(std::string name, Format format, const Shape& shape, 
     texture_ = std::make_shared<texunit::Texture>(std::move(name), std::make_unique<PackedSource>(format, shape, bytes_));
 }
 
-std::vector<float> SuiteTexture::texels() const {
-    std::vector<float> all;
+void SuiteTexture::append_texels(std::vector<float>& all) const {
+    if (format() == Format::RGBA32Float) {
+        const size_t before = all.size();
+        all.resize(before + bytes_->size() / 4);
+        std::memcpy(all.data() + before, bytes_->data(), bytes_->size());
+        return;
+    }
     for (int level = 0; level < shape().levels; ++level) {
-        all.reserve(all.size() + 4 * texels_of_level(shape(), level));
         for (int slice = 0; slice < slice_count(shape(), level); ++slice) {
             for (int y = 0; y < texunit::level_extent(shape().height, level); ++y) {
                 for (int x = 0; x < texunit::level_extent(shape().width, level); ++x) {
@@ -87,7 +97,6 @@ std::vector<float> SuiteTexture::texels() const {
             }
         }
     }
-    return all;
 }
 
 const CaseGroup& Suite::group_of(size_t index) const {
@@ -98,7 +107,9 @@ const CaseGroup& Suite::group_of(size_t index) const {
 TextureTables texture_tables(const Suite& suite) {
     TextureTables tables;
     tables.words = suite.words;
-    size_t next = 0;
+    size_t next = 0, texels = 0;
+    for (const SuiteTexture& texture : suite.textures) texels += texels_of(texture.shape());
+    tables.texels.reserve(4 * texels);
     for (const SuiteTexture& texture : suite.textures) {
         const Shape& shape = texture.shape();
         TextureRecord record{.width = uint32_t(shape.width),
@@ -113,8 +124,7 @@ TextureTables texture_tables(const Suite& suite) {
             record.first_texel[size_t(level)] = uint32_t(next);
             next += texels_of_level(shape, level);
         }
-        const std::vector<float> texels = texture.texels();
-        tables.texels.insert(tables.texels.end(), texels.begin(), texels.end());
+        texture.append_texels(tables.texels);
         if (texture.format() != Format::RGBA32Float) {
             const size_t first = tables.words.size();
             tables.words.resize(first + (texture.bytes().size() + 3) / 4);

@@ -25,16 +25,17 @@ class SuiteTexture {
     /// As handed over: what a device's own texture unit is given.
     const std::vector<std::byte>& bytes() const { return *bytes_; }
     texunit::Texture& texture() const { return *texture_; }
-    /// Linear RGBA of all texels, in the order of `bytes`.
-    std::vector<float> texels() const;
+    /// Adds linear RGBA of all texels, in the order of `bytes`.
+    void append_texels(std::vector<float>& all) const;
 
   private:
     std::shared_ptr<const std::vector<std::byte>> bytes_;
     std::shared_ptr<texunit::Texture> texture_;
 };
 
-/// Slices and texels of one level.
+/// Of all slices of one level, and of all levels.
 size_t texels_of_level(const texunit::Shape& shape, int level);
+size_t texels_of(const texunit::Shape& shape);
 
 /// Cases that try the same thing.
 struct CaseGroup {

@@ -19,12 +19,6 @@ texunit::Shape with_all_levels(texunit::Shape shape) {
     return shape;
 }
 
-size_t all_texels(const texunit::Shape& shape) {
-    size_t texels = 0;
-    for (int level = 0; level < shape.levels; ++level) texels += texels_of_level(shape, level);
-    return texels;
-}
-
 }  // namespace
 
 SuiteBuilder::SuiteBuilder(std::string_view name, std::string_view about) : seed_(0) {
@@ -40,7 +34,7 @@ uint32_t SuiteBuilder::add_texture(SuiteTexture texture) {
 
 uint32_t SuiteBuilder::add_noise_texture(std::string name, const texunit::Shape& extents) {
     const texunit::Shape shape = with_all_levels(extents);
-    std::vector<float> values(4 * all_texels(shape));
+    std::vector<float> values(4 * texels_of(shape));
     for (float& value : values) value = float(bits() >> 24) / 255;
     return add_texture({std::move(name), texunit::Format::RGBA32Float, shape, bytes_of(values)});
 }
@@ -48,7 +42,7 @@ uint32_t SuiteBuilder::add_noise_texture(std::string name, const texunit::Shape&
 uint32_t SuiteBuilder::add_constant_texture(std::string name, int width, int height, const std::array<float, 4>& value) {
     const texunit::Shape shape = with_all_levels({.width = width, .height = height});
     std::vector<float> values;
-    for (size_t n = all_texels(shape); n > 0; --n) values.insert(values.end(), value.begin(), value.end());
+    for (size_t n = texels_of(shape); n > 0; --n) values.insert(values.end(), value.begin(), value.end());
     return add_texture({std::move(name), texunit::Format::RGBA32Float, shape, bytes_of(values)});
 }
 

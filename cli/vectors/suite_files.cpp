@@ -133,9 +133,8 @@ SuiteTexture read_texture(const std::string& path, const std::string& name, cons
     if (shape.cube && (shape.layers % 6 != 0 || shape.width != shape.height || shape.depth > 1))
         fail(path, "texture '" + name + "' is no cube map");
     const auto format = Format(record.format);
-    size_t count = 0, bytes = 0;
+    size_t bytes = 0;
     for (int level = 0; level < shape.levels; ++level) {
-        count += texels_of_level(shape, level);
         bytes +=
             size_t(texunit::stored_bytes(format, texunit::level_extent(shape.width, level), texunit::level_extent(shape.height, level))) *
             size_t(slice_count(shape, level));
@@ -171,7 +170,8 @@ void check_case(const std::string& path, const Suite& suite, const CaseRecord& r
     if (record.probes < 1 || record.probes > 64) refuse("a number of probes that there is not (1 to 64)");
     if (record.op == PortOp::Mean && (record.count < 1 || record.count > 1u << 20)) refuse("no draws, or too many");
     if (record.op == PortOp::SrgbDecode && (record.index < 0 || record.index > 255)) refuse("a code that there is not (0 to 255)");
-    if (record.op == PortOp::WrapIndex && record.extent < 1) refuse("an axis without texels");
+    if (record.op == PortOp::WrapIndex && (record.extent < 1 || record.extent > 1 << 24)) refuse("an axis of no texels or more than 2^24");
+    if (record.op == PortOp::WrapIndex && (record.index < -(1 << 30) || record.index > 1 << 30)) refuse("an index beyond 2^30");
     if (record.op == PortOp::BlockTexel) {
         const Shape& shape = suite.textures[record.texture].shape();
         if (record.index < 0 || record.index >= shape.width || record.extent < 0 || record.extent >= shape.height)

@@ -15,7 +15,7 @@
 namespace rawtexel::cli {
 namespace {
 
-constexpr uint32_t kBuffers = 5, kFlatImage = 5, kArrayImage = 6, kBindings = 7;
+constexpr uint32_t kImages = kBindings - kBufferBindings;
 
 struct PushedRange {
     uint32_t first, count;
@@ -73,23 +73,61 @@ class PortBuffers {
 
     VulkanDevice& device_;
     TextureTables tables_;
-    std::array<std::unique_ptr<VulkanBuffer>, kBuffers> buffers_;
+    std::array<std::unique_ptr<VulkanBuffer>, kBufferBindings> buffers_;
     VkDeviceSize offset_ = 0, size_ = VK_WHOLE_SIZE;  ///< of the texels that are seen
+};
+
+/// An image view for each image that a shader asks for; null where it asks for none.
+using BoundImages = std::array<VkImageView, kImages>;
+
+/// Images of a suite's textures, made when they are first asked for.
+class PortImages {
+  public:
+    PortImages(VulkanDevice& device, const Suite& suite, const SpirvModule& module) : device_(device), suite_(suite), module_(module) {
+        for (uint32_t binding = kBufferBindings; binding < kBindings; ++binding) {
+            if (module.bindings.contains(binding))
+                blanks_[binding - kBufferBindings] = std::make_unique<SuiteImage>(device, blank_texture(binding));
+        }
+    }
+
+    /// Whether the device has such images, and the shader a binding for them.
+    bool has(uint32_t texture) const {
+        const SuiteTexture& asked = suite_.textures[texture];
+        return module_.bindings.contains(image_binding(asked.shape())) && can_sample(device_, asked);
+    }
+
+    /// Of a texture that there are images of: it and, at bindings of textures of other kinds, blanks.
+    BoundImages views(uint32_t texture) {
+        BoundImages views{};
+        for (size_t n = 0; n < kImages; ++n) {
+            if (blanks_[n]) views[n] = blanks_[n]->view();
+        }
+        std::unique_ptr<SuiteImage>& image = images_[texture];
+        if (!image) image = std::make_unique<SuiteImage>(device_, suite_.textures[texture]);
+        views[image_binding(suite_.textures[texture].shape()) - kBufferBindings] = image->view();
+        return views;
+    }
+
+  private:
+    VulkanDevice& device_;
+    const Suite& suite_;
+    const SpirvModule& module_;
+    std::array<std::unique_ptr<SuiteImage>, kImages> blanks_;
+    std::map<uint32_t, std::unique_ptr<SuiteImage>> images_;
 };
 
 /// The shader with its layouts; what was made is destroyed with it.
 class PortPipeline {
   public:
-    PortPipeline(VulkanDevice& device, const SpirvModule& module, const std::string& path)
-        : device_(device), images_(module.samples_images()) {
+    PortPipeline(VulkanDevice& device, const SpirvModule& module, const std::string& path) : device_(device) {
         VkShaderModuleCreateInfo shader_info{};
         shader_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
         shader_info.codeSize = module.words.size() * 4;
         shader_info.pCode = module.words.data();
         check(device.vkCreateShaderModule(device.handle(), &shader_info, nullptr, &shader_), "vkCreateShaderModule");
         std::vector<VkDescriptorSetLayoutBinding> bindings;
-        for (uint32_t n = 0; n < (images_ ? kBindings : kBuffers); ++n)
-            bindings.push_back({n, n < kBuffers ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
+        for (uint32_t n = 0; n < (module.samples_images() ? kBindings : kBufferBindings); ++n)
+            bindings.push_back({n, n < kBufferBindings ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
                                 VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
         VkDescriptorSetLayoutCreateInfo set_info{};
         set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
@@ -124,9 +162,9 @@ class PortPipeline {
     PortPipeline& operator=(const PortPipeline&) = delete;
 
     /// Runs cases first .. first + count - 1, with these images where the shader asks for some.
-    void dispatch(const PortBuffers& buffers, const SuiteImage* image, VkSampler sampler, PushedRange range, uint32_t group_size) {
+    void dispatch(const PortBuffers& buffers, const BoundImages& images, VkSampler sampler, PushedRange range, uint32_t group_size) {
         const std::array<VkDescriptorPoolSize, 2> sizes = {
-            {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBuffers}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 2}}};
+            {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBufferBindings}, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kImages}}};
         VkDescriptorPoolCreateInfo pool_info{};
         pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
         pool_info.maxSets = 1;
@@ -142,8 +180,8 @@ class PortPipeline {
         VkDescriptorSet set = VK_NULL_HANDLE;
         check(device_.vkAllocateDescriptorSets(device_.handle(), &set_info, &set), "vkAllocateDescriptorSets");
 
-        std::array<VkDescriptorBufferInfo, kBuffers> buffer_info{};
-        std::array<VkDescriptorImageInfo, 2> image_info{};
+        std::array<VkDescriptorBufferInfo, kBufferBindings> buffer_info{};
+        std::array<VkDescriptorImageInfo, kImages> image_info{};
         std::vector<VkWriteDescriptorSet> writes;
         const auto write = [&](uint32_t binding, VkDescriptorType type) -> VkWriteDescriptorSet& {
             VkWriteDescriptorSet one{};
@@ -154,15 +192,14 @@ class PortPipeline {
             one.descriptorType = type;
             return writes.emplace_back(one);
         };
-        for (uint32_t n = 0; n < kBuffers; ++n) {
+        for (uint32_t n = 0; n < kBufferBindings; ++n) {
             buffer_info[n] = buffers.info(n);
             write(n, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER).pBufferInfo = &buffer_info[n];
         }
-        if (images_) {
-            image_info = {{{sampler, image->flat(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
-                           {sampler, image->array(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}}};
-            write(kFlatImage, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER).pImageInfo = image_info.data();
-            write(kArrayImage, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER).pImageInfo = image_info.data() + 1;
+        for (uint32_t n = 0; n < kImages; ++n) {
+            if (images[n] == VK_NULL_HANDLE) continue;
+            image_info[n] = {sampler, images[n], VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+            write(kBufferBindings + n, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER).pImageInfo = &image_info[n];
         }
         device_.vkUpdateDescriptorSets(device_.handle(), uint32_t(writes.size()), writes.data(), 0, nullptr);
         device_.run([&](VkCommandBuffer commands) {
@@ -181,7 +218,6 @@ class PortPipeline {
 
   private:
     VulkanDevice& device_;
-    bool images_;
     VkShaderModule shader_ = VK_NULL_HANDLE;
     VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
@@ -204,24 +240,22 @@ size_t end_of_run(const Suite& suite, size_t first, bool by_sampler) {
 /// A dispatch for each run of cases that one image and one sampler serve, or one texture's texels.
 void run_in_parts(VulkanDevice& device, const Suite& suite, PortBuffers& buffers, PortPipeline& pipeline, const SpirvModule& module,
                   std::vector<uint32_t>& unsupported) {
-    if (suite.textures.empty()) throw scenes::InputError("the shader samples an image (binding 5 or 6), but the suite has no textures");
-    std::map<uint32_t, std::unique_ptr<SuiteImage>> images;
+    if (suite.textures.empty()) throw scenes::InputError("the shader samples an image (bindings 5 to 8), but the suite has no textures");
+    PortImages images(device, suite, module);
     for (size_t first = 0; first < suite.cases.size();) {
         const CaseRecord& record = suite.cases[first];
         const size_t end = end_of_run(suite, first, module.samples_images());
         const PushedRange range{uint32_t(first), uint32_t(end - first)};
         const uint32_t texture = texture_of(suite, record);
         if (!buffers.shows_all_texels()) buffers.show(texture);
-        if (module.samples_images() && !can_sample(device, suite.textures[texture])) {
+        if (module.samples_images() && !images.has(texture)) {
             if (std::ranges::find(unsupported, texture) == unsupported.end()) unsupported.push_back(texture);
         } else if (module.samples_images()) {
-            std::unique_ptr<SuiteImage>& image = images[texture];
-            if (!image) image = std::make_unique<SuiteImage>(device, suite.textures[texture]);
             const VkSampler sampler = make_sampler(device, record);
-            pipeline.dispatch(buffers, image.get(), sampler, range, module.group_size);
+            pipeline.dispatch(buffers, images.views(texture), sampler, range, module.group_size);
             device.vkDestroySampler(device.handle(), sampler, nullptr);
         } else {
-            pipeline.dispatch(buffers, nullptr, VK_NULL_HANDLE, range, module.group_size);
+            pipeline.dispatch(buffers, {}, VK_NULL_HANDLE, range, module.group_size);
         }
         first = end;
     }
@@ -237,7 +271,7 @@ PortRun dispatch_port(const Suite& suite, const SpirvModule& module, const std::
     if (module.samples_images() || !buffers.shows_all_texels()) {
         run_in_parts(device, suite, buffers, pipeline, module, run.unsupported);
     } else {
-        pipeline.dispatch(buffers, nullptr, VK_NULL_HANDLE, {0, uint32_t(suite.cases.size())}, module.group_size);
+        pipeline.dispatch(buffers, {}, VK_NULL_HANDLE, {0, uint32_t(suite.cases.size())}, module.group_size);
     }
     std::memcpy(run.results.data(), buffers.results(), suite.cases.size() * sizeof(PortResult));
     return run;

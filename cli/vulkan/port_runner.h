@@ -20,7 +20,7 @@ class NoVulkan : public std::runtime_error {
 struct PortRun {
     std::string device;  ///< name, version of the API and driver
     std::vector<PortResult> results;
-    std::vector<uint32_t> unsupported;  ///< textures that the shader asks images of, which the device has not; their results are 0
+    std::vector<uint32_t> unsupported;  ///< those that the device has no images of, or the shader no binding; their results are 0
 };
 
 /// One result a case. `device`: part of a device's name, empty for the first that is no CPU, or else the first. Throws NoVulkan;

@@ -11,7 +11,6 @@ namespace {
 constexpr uint32_t kMagic = 0x07230203, kEntryPoint = 15, kExecutionMode = 16, kDecorate = 71;
 constexpr uint32_t kComputeModel = 5, kLocalSizeMode = 17, kBindingDecoration = 33, kSetDecoration = 34;
 constexpr size_t kHeaderWords = 5;
-constexpr uint32_t kBindings = 7;
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) { throw scenes::InputError(path + ": " + what); }
 

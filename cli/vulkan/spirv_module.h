@@ -9,6 +9,9 @@
 
 namespace rawtexel::cli {
 
+/// Bindings of the contract (docs/porting.md): buffers, then an image for each kind of textures.
+inline constexpr uint32_t kBufferBindings = 5, kFlatBinding = 5, kArrayBinding = 6, kCubeBinding = 7, kVolumeBinding = 8, kBindings = 9;
+
 struct SpirvModule {
     std::vector<uint32_t> words;
     std::string entry_point;  ///< of the one compute shader
@@ -16,7 +19,7 @@ struct SpirvModule {
     std::set<uint32_t> bindings;
 
     /// Whether it asks the device's own texture unit.
-    bool samples_images() const { return bindings.contains(5) || bindings.contains(6); }
+    bool samples_images() const { return !bindings.empty() && *bindings.rbegin() >= kBufferBindings; }
 };
 
 /// Throws scenes::InputError naming `path`: no SPIR-V, no compute shader or several, a workgroup that is not one row, bindings that the

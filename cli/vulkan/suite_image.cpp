@@ -55,27 +55,43 @@ VkImageMemoryBarrier barrier(VkImage image, VkImageLayout from, VkImageLayout to
 
 }  // namespace
 
+uint32_t image_binding(const Shape& shape) {
+    if (shape.cube) return kCubeBinding;
+    if (shape.depth > 1) return kVolumeBinding;
+    return shape.layers > 1 ? kArrayBinding : kFlatBinding;
+}
+
+SuiteTexture blank_texture(uint32_t binding) {
+    Shape shape;
+    if (binding == kArrayBinding) shape.layers = 2;
+    if (binding == kCubeBinding) shape.layers = 6, shape.cube = true;
+    if (binding == kVolumeBinding) shape.depth = 2, shape.levels = 2;
+    const size_t texels = binding == kVolumeBinding ? 3 : size_t(shape.layers);
+    return {"blank", Format::RGBA8Unorm, shape, std::vector<std::byte>(4 * texels)};
+}
+
 bool can_sample(const VulkanDevice& device, const SuiteTexture& texture) {
     const VkFormat format = vulkan_format(texture.format());
     const Shape& shape = texture.shape();
-    return format != VK_FORMAT_UNDEFINED && shape.depth == 1 && !shape.cube && device.samples(format) &&
-           (!texunit::info(texture.format()).block_compressed || device.features().textureCompressionBC != 0);
+    const bool compressed = texunit::info(texture.format()).block_compressed;
+    // Arrays of cube maps and compressed volumes are features of their own, which no suite asks for.
+    if ((shape.cube && shape.cubes() > 1) || (compressed && shape.depth > 1)) return false;
+    return format != VK_FORMAT_UNDEFINED && device.samples(format) && (!compressed || device.features().textureCompressionBC != 0);
 }
 
-SuiteImage::SuiteImage(VulkanDevice& device, const SuiteTexture& texture)
-    : device_(device), format_(vulkan_format(texture.format())), levels_(uint32_t(texture.shape().levels)) {
+SuiteImage::SuiteImage(VulkanDevice& device, const SuiteTexture& texture) : device_(device) {
     const Shape& shape = texture.shape();
-    const auto layers = uint32_t(shape.layers);
     if (!can_sample(device, texture))
         throw scenes::InputError("the device samples no images such as texture '" + texture.name() + "' (" +
-                                 std::string(texunit::info(texture.format()).name) + "), which the shader asks for by binding 5 or 6");
+                                 std::string(texunit::info(texture.format()).name) + "), which the shader asks for");
     VkImageCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
-    info.imageType = VK_IMAGE_TYPE_2D;
-    info.format = format_;
-    info.extent = {uint32_t(shape.width), uint32_t(shape.height), 1};
-    info.mipLevels = levels_;
-    info.arrayLayers = layers;
+    info.flags = shape.cube ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
+    info.imageType = shape.depth > 1 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
+    info.format = vulkan_format(texture.format());
+    info.extent = {uint32_t(shape.width), uint32_t(shape.height), uint32_t(shape.depth)};
+    info.mipLevels = uint32_t(shape.levels);
+    info.arrayLayers = uint32_t(shape.layers);
     info.samples = VK_SAMPLE_COUNT_1_BIT;
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
     info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
@@ -84,50 +100,52 @@ SuiteImage::SuiteImage(VulkanDevice& device, const SuiteTexture& texture)
     device.vkGetImageMemoryRequirements(device.handle(), image_, &needs);
     memory_ = device.allocate(needs, 0);
     check(device.vkBindImageMemory(device.handle(), image_, memory_, 0), "vkBindImageMemory");
-
-    const VulkanBuffer staging(device, texture.bytes(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-    std::vector<VkBufferImageCopy> copies;
-    VkDeviceSize at = 0;
-    for (uint32_t level = 0; level < levels_; ++level) {
-        const int width = texunit::level_extent(shape.width, int(level)), height = texunit::level_extent(shape.height, int(level));
-        VkBufferImageCopy copy{};
-        copy.bufferOffset = at;
-        copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, layers};
-        copy.imageExtent = {uint32_t(width), uint32_t(height), 1};
-        copies.push_back(copy);
-        at += texunit::stored_bytes(texture.format(), width, height) * layers;
-    }
-    device.run([&](VkCommandBuffer commands) {
-        const auto to_copy =
-            barrier(image_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 0, VK_ACCESS_TRANSFER_WRITE_BIT);
-        device.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr,
-                                    1, &to_copy);
-        device.vkCmdCopyBufferToImage(commands, staging.handle(), image_, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, uint32_t(copies.size()),
-                                      copies.data());
-        const auto to_read = barrier(image_, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                                     VK_ACCESS_TRANSFER_WRITE_BIT, VK_ACCESS_SHADER_READ_BIT);
-        device.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 0, nullptr, 0,
-                                    nullptr, 1, &to_read);
-    });
-    flat_ = make_view(VK_IMAGE_VIEW_TYPE_2D, 1);
-    array_ = make_view(VK_IMAGE_VIEW_TYPE_2D_ARRAY, layers);
+    upload(texture);
+    make_view(image_binding(shape), info.format);
 }
 
-VkImageView SuiteImage::make_view(VkImageViewType type, uint32_t layers) {
+void SuiteImage::upload(const SuiteTexture& texture) {
+    const Shape& shape = texture.shape();
+    const VulkanBuffer staging(device_, texture.bytes(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    std::vector<VkBufferImageCopy> copies;
+    VkDeviceSize at = 0;
+    for (int level = 0; level < shape.levels; ++level) {
+        const int width = texunit::level_extent(shape.width, level), height = texunit::level_extent(shape.height, level);
+        VkBufferImageCopy copy{};
+        copy.bufferOffset = at;
+        copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, uint32_t(level), 0, uint32_t(shape.layers)};
+        copy.imageExtent = {uint32_t(width), uint32_t(height), uint32_t(texunit::level_extent(shape.depth, level))};
+        copies.push_back(copy);
+        at += texunit::stored_bytes(texture.format(), width, height) * VkDeviceSize(slice_count(shape, level));
+    }
+    device_.run([&](VkCommandBuffer commands) {
+        const auto to_copy =
+            barrier(image_, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 0, VK_ACCESS_TRANSFER_WRITE_BIT);
+        device_.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr,
+                                     1, &to_copy);
+        device_.vkCmdCopyBufferToImage(commands, staging.handle(), image_, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, uint32_t(copies.size()),
+                                       copies.data());
+        const auto to_read = barrier(image_, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                     VK_ACCESS_TRANSFER_WRITE_BIT, VK_ACCESS_SHADER_READ_BIT);
+        device_.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 0, nullptr, 0,
+                                     nullptr, 1, &to_read);
+    });
+}
+
+void SuiteImage::make_view(uint32_t binding, VkFormat format) {
+    static constexpr VkImageViewType kTypes[] = {VK_IMAGE_VIEW_TYPE_2D, VK_IMAGE_VIEW_TYPE_2D_ARRAY, VK_IMAGE_VIEW_TYPE_CUBE,
+                                                 VK_IMAGE_VIEW_TYPE_3D};
     VkImageViewCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
     info.image = image_;
-    info.viewType = type;
-    info.format = format_;
-    info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, levels_, 0, layers};
-    VkImageView view = VK_NULL_HANDLE;
-    check(device_.vkCreateImageView(device_.handle(), &info, nullptr, &view), "vkCreateImageView");
-    return view;
+    info.viewType = kTypes[binding - kFlatBinding];
+    info.format = format;
+    info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+    check(device_.vkCreateImageView(device_.handle(), &info, nullptr, &view_), "vkCreateImageView");
 }
 
 SuiteImage::~SuiteImage() {
-    device_.vkDestroyImageView(device_.handle(), flat_, nullptr);
-    device_.vkDestroyImageView(device_.handle(), array_, nullptr);
+    device_.vkDestroyImageView(device_.handle(), view_, nullptr);
     device_.vkDestroyImage(device_.handle(), image_, nullptr);
     device_.vkFreeMemory(device_.handle(), memory_, nullptr);
 }

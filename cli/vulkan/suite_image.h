@@ -5,7 +5,11 @@
 
 namespace rawtexel::cli {
 
-/// Of flat textures and arrays, all levels. Throws scenes::InputError where the device has no such images.
+/// The binding at which shaders ask for images of this shape (cli/vulkan/spirv_module.h).
+uint32_t image_binding(const texunit::Shape& shape);
+
+/// All levels of a texture, as the image of its binding. Throws scenes::InputError where the device has no
+/// such images.
 class SuiteImage {
   public:
     SuiteImage(VulkanDevice& device, const SuiteTexture& texture);
@@ -13,19 +17,20 @@ class SuiteImage {
     SuiteImage(const SuiteImage&) = delete;
     SuiteImage& operator=(const SuiteImage&) = delete;
 
-    VkImageView flat() const { return flat_; }    ///< the first layer
-    VkImageView array() const { return array_; }  ///< all of them
+    VkImageView view() const { return view_; }
 
   private:
-    VkImageView make_view(VkImageViewType type, uint32_t layers);
+    void upload(const SuiteTexture& texture);
+    void make_view(uint32_t binding, VkFormat format);
 
     VulkanDevice& device_;
-    VkFormat format_;
-    uint32_t levels_;
     VkImage image_ = VK_NULL_HANDLE;
     VkDeviceMemory memory_ = VK_NULL_HANDLE;
-    VkImageView flat_ = VK_NULL_HANDLE, array_ = VK_NULL_HANDLE;
+    VkImageView view_ = VK_NULL_HANDLE;
 };
+
+/// What is bound where a case's texture is of another kind: an image of a single texel, or six.
+SuiteTexture blank_texture(uint32_t binding);
 
 /// The sampler of a case, as near as Vulkan has it: kernels other than nearest are linear, borders are transparent black.
 VkSampler make_sampler(VulkanDevice& device, const CaseRecord& record);

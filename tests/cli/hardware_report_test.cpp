@@ -1,7 +1,10 @@
 // What is told of a device's own texture unit, on answers whose precision, footprints and rounding are known.
 #include "cli/vectors/hardware_report.h"
+#include "cli/vectors/legal_case.h"
+#include "cli/vectors/verdict_report.h"
 #include "tests/cli/program_runner.h"
 #include "texunit/block_codec.h"
+#include "texunit/legal_judge.h"
 #include "texunit/texel_value.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +14,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -52,13 +56,63 @@ std::function<void(CaseRecord&)> snap_coordinates(int bits) {
 
 TEST(HardwareReport, FindsTheBitsOfAnExactTextureUnit) {
     const auto agreements = measure_hardware(hardware_suite(), answers_of([](CaseRecord&) {}), {});
-    for (const char* group : {"nearest", "bilinear", "nearest level", "trilinear", "trilinear, bias and bounds"}) {
+    for (const char* group : {"nearest", "bilinear", "nearest level", "trilinear", "trilinear, bias and bounds", "array, layers",
+                              "array, trilinear", "volume, nearest", "volume, eight texels", "volume, two levels", "cube, nearest",
+                              "cube, bilinear", "cube, seamless edges", "cube, two levels"}) {
         EXPECT_EQ(find(agreements, group).subtexel_bits, 8) << group;
         EXPECT_TRUE(find(agreements, group).holds()) << group;
     }
     EXPECT_EQ(find(agreements, "trilinear").lod_bits, 8);
     EXPECT_TRUE(find(agreements, "trilinear").exact_scale);
     EXPECT_FALSE(find(agreements, "bilinear").lod_bits);
+    EXPECT_EQ(find(agreements, "volume, two levels").lod_bits, 8);
+    EXPECT_EQ(find(agreements, "cube, two levels").lod_bits, 8);
+}
+
+// The faults of arrays, volumes and cube maps that texture units had, each in its groups alone and with its name in the report.
+TEST(HardwareReport, RefusesWhatIsNoRightArrayVolumeOrCubeMap) {
+    const Suite& suite = hardware_suite();
+    const auto failing = [&](const std::vector<PortResult>& answers, const std::string& cause) {
+        const cli::SuiteVerdict verdict = judge_results(suite, answers);
+        const auto agreements = measure_hardware(suite, answers, {});
+        std::set<std::string> groups;
+        bool named = false;
+        for (const cli::CaseFailure& failure : verdict.failures) {
+            groups.insert(suite.group_of(failure.index).name);
+            named = named || failure.cause == cause;
+        }
+        for (const std::string& group : groups) EXPECT_FALSE(find(agreements, group).holds()) << group;
+        EXPECT_TRUE(named) << cause << "\n" << verdict_text(suite, verdict, "");
+        return groups;
+    };
+    const auto shape_of = [&](const CaseRecord& record) -> const texunit::Shape& { return suite.textures[record.texture].shape(); };
+    using Groups = std::set<std::string>;
+    EXPECT_EQ(failing(answers_of([](CaseRecord& record) { record.layer = std::floor(record.layer); }), "layer off by one"),
+              (Groups{"array, layers", "array, trilinear"}));
+    EXPECT_EQ(failing(answers_of([&](CaseRecord& record) {
+                          if (shape_of(record).depth > 1) record.at[2] += 0.5f / float(shape_of(record).depth);
+                      }),
+                      "half a slice behind"),
+              (Groups{"volume, nearest", "volume, eight texels", "volume, two levels"}));
+    EXPECT_EQ(failing(answers_of([&](CaseRecord& record) {
+                          if (shape_of(record).cube) record.at[1] = -record.at[1];
+                      }),
+                      "direction mirrored in y"),
+              (Groups{"cube, nearest", "cube, bilinear", "cube, seamless edges", "cube, two levels"}));
+    // Edges that are clamped: of all colours that such a texture unit gives the one that is nearest to what is right.
+    std::vector<PortResult> clamped = answers_of([](CaseRecord&) {});
+    for (size_t n = 0; n < clamped.size(); ++n) {
+        const CaseRecord& record = suite.cases[n];
+        if (!shape_of(record).cube) continue;
+        const texunit::LegalVerdict verdict =
+            judge_suspected(judged_texture(suite, record), sampler_of(record), judged_lookup(record), cli::judged_colour(clamped[n].value),
+                            {.subtexel_bits = 20, .lod_bits = 20, .approximate_scale = false, .colour_threshold = 1e-6},
+                            {.footprint = {}, .address = {.shift = {}, .seamless = false}});
+        for (size_t c = 0; c < 4; ++c) clamped[n].value[c] = float(verdict.closest[c]);
+    }
+    const Groups edges = failing(clamped, "edges of faces clamped");
+    EXPECT_TRUE(edges.contains("cube, seamless edges"));
+    EXPECT_FALSE(edges.contains("cube, bilinear"));
 }
 
 TEST(HardwareReport, FindsFewerBitsWhereThereAreFewer) {

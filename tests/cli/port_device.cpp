@@ -22,4 +22,6 @@ std::string why_no_ports() {
     return "";
 }
 
+void compile_for_narrow_vectors() { setenv("LP_NATIVE_VECTOR_WIDTH", "128", 0); }
+
 }  // namespace rawtexel::test

@@ -5,9 +5,12 @@
 
 namespace rawtexel::test {
 
-/// "" or why no port can be run: no Vulkan device, no glslangValidator, a build with sanitizers. Lets Mesa's drivers compile shaders without optimising them, which
-/// takes longer than to run them once.
+/// "" or why no port can be run: no Vulkan device, no glslangValidator, a build with sanitizers. Lets Mesa's drivers compile shaders
+/// without optimising them, which takes longer than to run them once.
 std::string why_no_ports();
+
+/// Lets lavapipe compile for narrow vectors, in half the time: for tests that compile many shaders, each for one run.
+void compile_for_narrow_vectors();
 
 /// Skips with the reason; where RAWTEXEL_REQUIRE_VULKAN is set, as in continuous integration, fails instead.
 #define RAWTEXEL_NEED_PORTS()                                                                         \

@@ -1,9 +1,9 @@
 // Test vectors: what suites hold, that their files say the same, and that a verdict is passed on what lies outside the legal intervals.
 #include "cli/vectors/expectation.h"
 #include "cli/vectors/judge.h"
+#include "cli/vectors/legal_case.h"
 #include "cli/vectors/suite_files.h"
 #include "tests/cli/program_runner.h"
-#include "texunit/legal_interval.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -12,6 +12,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -94,53 +96,38 @@ TEST(Vectors, AllGoesIntoAFolderEach) {
         EXPECT_TRUE(cli::is_suite_folder(folder / "all/" + std::string(info.name))) << info.name;
 }
 
+/// Names in backquotes in the last column of the tables of docs/pitfalls.md.
+std::set<std::string> documented_pitfalls() {
+    std::set<std::string> names;
+    std::istringstream text(read_file(std::string(RAWTEXEL_SHADERS) + "/../../docs/pitfalls.md"));
+    for (std::string line; std::getline(text, line);) {
+        if (!line.starts_with("| ") || !line.ends_with("` |")) continue;
+        const std::string column = line.substr(line.rfind("| ", line.size() - 3));
+        for (size_t at = column.find('`'); at != std::string::npos; at = column.find('`', column.find('`', at + 1) + 1))
+            names.insert(column.substr(at + 1, column.find('`', at + 1) - at - 1));
+    }
+    return names;
+}
+
 // What is known to go wrong in stochastic texture filtering, all of it: a group that goes missing takes a pitfall with it.
 TEST(Vectors, TryEveryKnownPitfallByName) {
     const Suite suite = *cli::make_suite("adversarial");
-    for (const char* pitfall : {"clamp reaches every texel",
-                                "the border has its colour",
-                                "across the seam",
-                                "level, kernel and alpha count",
-                                "every lane has its texture",
-                                "every lane has its level",
-                                "as many probes as counted",
-                                "normal offsets of volumes",
-                                "a number of 0",
-                                "bias is added to derivatives",
-                                "one number, one choice",
-                                "cube maps",
-                                "ratios beyond 16",
-                                "last levels of thin textures",
-                                "a tap of weight 0",
-                                "just below 0",
-                                "Gaussians are integrated over texels",
-                                "what others lack",
-                                "magnified and squared",
-                                "minified and squared",
-                                "no blend between two normals",
-                                "ties and texel centres",
-                                "centres of 4095 texels",
-                                "wraps come after selection",
-                                "clamp before the level is drawn",
-                                "no footprint",
-                                "far from the origin",
-                                "a number is never 1",
-                                "the largest number",
-                                "maps share their numbers",
-                                "the same case again",
-                                "the mean of draws",
-                                "a camera at rest",
-                                "a drawn texel is raw",
-                                "weights of either sign are normalised",
-                                "levels of odd textures",
-                                "an address is a number",
-                                "which order is which",
-                                "sRGB texels",
-                                "volumes have three axes",
-                                "an infinite texel beside"}) {
-        EXPECT_TRUE(std::ranges::any_of(suite.groups, [&](const cli::CaseGroup& group) { return group.name == pitfall; })) << pitfall;
+    std::set<std::string> tried;
+    for (const cli::CaseGroup& group : suite.groups) tried.insert(group.name);
+    EXPECT_EQ(tried, documented_pitfalls());
+    EXPECT_EQ(tried.size(), 44u);
+}
+
+// Of a case with more switched on than it needs the random numbers are the same.
+TEST(Vectors, KeepNumbersWhereFeaturesAreSwitchedOn) {
+    const Suite suite = *cli::make_suite("adversarial");
+    const auto group = std::ranges::find(suite.groups, "a role keeps its numbers", &cli::CaseGroup::name);
+    ASSERT_NE(group, suite.groups.end());
+    ASSERT_EQ(group->count % 3, 0u);
+    for (size_t n = group->first; n < size_t(group->first) + group->count; n += 3) {
+        for (const size_t with_more : {n + 1, n + 2})
+            EXPECT_EQ(suite.expected[n].expected.value, suite.expected[with_more].expected.value) << with_more;
     }
-    EXPECT_EQ(suite.groups.size(), 41u);
 }
 
 // The independent verifier of texunit finds every sampled value legal, and the ends of its interval no farther off than the freedoms
@@ -152,19 +139,10 @@ TEST(Vectors, SampledValuesAreLegalToTheVerifier) {
         for (size_t n = 0; n < suite.cases.size(); n += 7) {
             const CaseRecord& record = suite.cases[n];
             if (record.op != PortOp::Sample) continue;
-            texunit::Texture& texture = suite.textures[record.texture].texture();
-            const texunit::JudgedTexture judged_texture{
-                texture.shape(), [&](int level, int slice, int x, int y) {
-                    const auto texel = texture.texel(level, slice, x, y);
-                    return std::array<double, 4>{double(texel[0]), double(texel[1]), double(texel[2]), double(texel[3])};
-                }};
-            const auto at = [](const std::array<float, 3>& v) { return std::array<double, 3>{double(v[0]), double(v[1]), double(v[2])}; };
-            const auto& value = suite.expected[n].expected.value;
             const texunit::LegalPrecision precision{
                 .coordinate_bits = 22, .subtexel_bits = 16, .lod_bits = 12, .approximate_scale = false, .colour_threshold = 1e-5};
-            const std::array<double, 4> colour = {double(value[0]), double(value[1]), double(value[2]), double(value[3])};
-            const auto verdict = judge_lookup(judged_texture, sampler_of(record),
-                                              {at(record.at), at(record.dx), at(record.dy), double(record.layer)}, colour, precision);
+            const std::array<double, 4> colour = cli::judged_colour(suite.expected[n].expected.value);
+            const auto verdict = judge_lookup(judged_texture(suite, record), sampler_of(record), judged_lookup(record), colour, precision);
             EXPECT_TRUE(verdict.legal) << name << ", case " << n << ": " << to_string(verdict, colour);
             ++judged;
         }
@@ -262,6 +240,53 @@ TEST(Verdicts, TellCaseIntervalAnswerAndCause) {
     EXPECT_EQ(verdict["failures"][0]["fields"][0]["came"], 1);
 }
 
+// A sampler that gives a colour and nothing else can be judged by it.
+TEST(Verdicts, AreOfTheFieldsThatAreAskedFor) {
+    const Suite suite = *cli::make_suite("kernels");
+    std::vector<PortResult> answers = right_answers(suite);
+    for (PortResult& answer : answers) answer.x = answer.y = answer.level = 77, answer.weight = -1;
+    const TemporaryFolder folder;
+    const std::string file = folder.write("answers.bin", bytes_of(answers));
+    const auto judged = [&](const std::string& fields) {
+        return run({"verify-shader", "--suite", "kernels", "--outputs", file, "--fields", fields});
+    };
+    EXPECT_EQ(run({"verify-shader", "--suite", "kernels", "--outputs", file}).code, 1);
+    EXPECT_EQ(judged("value").code, 0);
+    const Outcome weights = judged("value,weight");
+    EXPECT_EQ(weights.code, 1);
+    EXPECT_NE(weights.out.find("      weight: expected "), std::string::npos) << weights.out;
+    EXPECT_EQ(weights.out.find("      level: "), std::string::npos) << weights.out;
+    answers[3].value[2] += 1;
+    write_file(file, bytes_of(answers));
+    EXPECT_EQ(judged("value").code, 1);
+    EXPECT_EQ(why_not_failed(judged("colour"), 2, "--fields: unknown value 'colour'"), "");
+    EXPECT_EQ(why_not_failed(judged(","), 2, "--fields: unknown value ''"), "");
+    EXPECT_EQ(why_not_failed(judged("bits"), 2, "no case of kernels decides any of them"), "");
+}
+
+// A folder with the answers to every suite: one line each, and the details of that which fails.
+TEST(Verdicts, AreOfEverySuiteThatAFolderAnswers) {
+    const TemporaryFolder folder;
+    for (const cli::SuiteInfo& info : cli::all_suites()) {
+        std::vector<PortResult> answers = right_answers(*cli::make_suite(info.name));
+        if (info.name == "triplanar") answers[5].x = 9;
+        folder.write(std::string(info.name) + ".bin", bytes_of(answers));
+    }
+    const Outcome outcome = run({"verify-shader", "--suite", "all", "--outputs", folder.path()});
+    EXPECT_EQ(outcome.code, 1) << outcome.err;
+    for (const cli::SuiteInfo& info : cli::all_suites()) {
+        const std::string head = std::string(info.name) + " (" + (folder / (std::string(info.name) + ".bin")) + "): ";
+        const size_t line = outcome.out.find(head);
+        ASSERT_NE(line, std::string::npos) << info.name << "\n" << outcome.out;
+        const std::string verdict = outcome.out.substr(line, outcome.out.find('\n', line) - line);
+        EXPECT_TRUE(verdict.ends_with(info.name == "triplanar" ? "cases are not legal" : "all legal")) << verdict;
+    }
+    std::filesystem::remove(folder / "noise.bin");
+    const Outcome missing = run({"verify-shader", "--suite", "all", "--outputs", folder.path()});
+    EXPECT_EQ(missing.code, 3);
+    EXPECT_NE(missing.err.find("noise.bin: cannot be opened"), std::string::npos) << missing.err;
+}
+
 TEST(Verdicts, NeedNoVulkanForOutputs) {
     const Suite suite = *cli::make_suite("srgb");
     const TemporaryFolder folder;
@@ -310,6 +335,19 @@ TEST(VectorFiles, AreRefusedWhereTheyAreDamaged) {
     EXPECT_EQ(refused("cases.bin", set_word(2, 9), "case 0: a wrap that there is not"), "");
     EXPECT_EQ(refused("cases.bin", set_word(14, 1000), "case 0: a number of probes"), "");
     EXPECT_EQ(refused("textures.bin", set_word(0, 0), "an extent"), "");
+    // A case of another op: an index that no texture has.
+    const auto set_index = [](int32_t index, int32_t extent) {
+        return [=](std::string& bytes) {
+            CaseRecord record;
+            record.op = PortOp::WrapIndex;
+            record.index = index, record.extent = extent;
+            std::memcpy(bytes.data(), &record, sizeof(record));
+        };
+    };
+    EXPECT_EQ(refused("cases.bin", set_index(std::numeric_limits<int32_t>::min(), 8), "case 0: an index beyond 2^30"), "");
+    EXPECT_EQ(refused("cases.bin", set_index(3, 0), "case 0: an axis of no texels"), "");
+    EXPECT_EQ(refused("cases.bin", set_index(3, std::numeric_limits<int32_t>::max()), "case 0: an axis of no texels or more than 2^24"),
+              "");
     std::filesystem::remove(suite + "/expected.bin");
     EXPECT_EQ(why_not_failed(run(verify), 3, "expected.bin"), "");
 }

@@ -1,13 +1,10 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // The port of suite adversarial: the known pitfalls.
+#include "each_case.glsl"
 #include "draw.glsl"
 
-void main() {
-    uint index = gl_GlobalInvocationID.x;
-    if (index >= case_count) return;
-    index += first_case;
-    uint op = case_uint(index, 0u);
+Result answer(uint op, uint index) {
     Result r = no_result();
     if (op == OP_SAMPLE || op == OP_SHADE) r = filter_case(index);
     if (op == OP_DRAW || op == OP_MEAN) r = draw_case(index);
@@ -15,5 +12,5 @@ void main() {
         r.bits = random_bits(case_address(index));
         r.value.x = unit_float(r.bits);
     }
-    write_result(index, r);
+    return r;
 }

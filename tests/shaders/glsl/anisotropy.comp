@@ -1,15 +1,11 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // The port of suite anisotropy: anisotropic probes, weighed and drawn.
+#include "each_case.glsl"
 #include "draw.glsl"
 
-void main() {
-    uint index = gl_GlobalInvocationID.x;
-    if (index >= case_count) return;
-    index += first_case;
-    uint op = case_uint(index, 0u);
-    Result r = no_result();
-    if (op == OP_SAMPLE) r = filter_case(index);
-    if (op == OP_DRAW) r = draw_case(index);
-    write_result(index, r);
+Result answer(uint op, uint index) {
+    if (op == OP_SAMPLE) return filter_case(index);
+    if (op == OP_DRAW) return draw_case(index);
+    return no_result();
 }

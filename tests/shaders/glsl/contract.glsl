@@ -15,6 +15,15 @@ const uint OP_WRAP_INDEX = 0u, OP_SAMPLE = 1u, OP_DRAW = 2u, OP_MEAN = 3u, OP_SH
            OP_BLOCK_TEXEL = 7u, OP_RANDOM = 8u, OP_NOISE_PAIR = 9u, OP_PLANE = 10u;
 const uint ESTIMATOR_ALL = 0u, ESTIMATOR_RESERVOIR = 1u, ESTIMATOR_JITTER = 2u, ESTIMATOR_ABS_WEIGHT = 3u;
 
+// Words of a case, by the names that docs/porting.md has.
+const uint CASE_OP = 0u, CASE_TEXTURE = 1u, CASE_WRAP_S = 2u, CASE_WRAP_T = 3u, CASE_WRAP_R = 4u, CASE_MINIFY = 5u, CASE_MAGNIFY = 8u,
+           CASE_ESTIMATOR = 11u, CASE_MIP = 12u, CASE_LOD_RULE = 13u, CASE_PROBES = 14u, CASE_PROBE_VARIANCE = 15u, CASE_ELLIPSE = 16u,
+           CASE_HYBRID_BIAS = 17u, CASE_LOD_BIAS = 18u, CASE_MIN_LOD = 19u, CASE_MAX_LOD = 20u, CASE_BORDER = 21u, CASE_AT = 25u,
+           CASE_DX = 28u, CASE_DY = 31u, CASE_LAYER = 34u, CASE_NUMBER_X = 35u, CASE_NUMBER_LEVEL = 38u, CASE_NUMBER_PROBE = 39u,
+           CASE_NUMBER_SIGN = 40u, CASE_NEGATIVE_X = 41u, CASE_NEGATIVE_SIGN = 44u, CASE_INDEX = 45u, CASE_EXTENT = 46u,
+           CASE_PIXEL_X = 47u, CASE_PIXEL_Y = 48u, CASE_SAMPLE = 49u, CASE_SURFACE = 50u, CASE_DIMENSION = 51u, CASE_SEED = 52u,
+           CASE_NOISE = 53u, CASE_SECOND_DIMENSION = 54u, CASE_COUNT = 55u, CASE_ORDER = 56u, CASE_SHADER = 57u;
+
 uint case_uint(uint index, uint word) { return case_words[64u * index + word]; }
 int case_int(uint index, uint word) { return int(case_uint(index, word)); }
 float case_float(uint index, uint word) { return uintBitsToFloat(case_uint(index, word)); }

@@ -15,12 +15,12 @@ struct DrawNumbers {
 
 DrawNumbers case_numbers(uint index) {
     DrawNumbers n;
-    n.tap = case_vec3(index, 35u);
-    n.level = case_float(index, 38u);
-    n.probe = case_float(index, 39u);
-    n.sign_ = case_float(index, 40u);
-    n.negative_tap = case_vec3(index, 41u);
-    n.negative_sign = case_float(index, 44u);
+    n.tap = case_vec3(index, CASE_NUMBER_X);
+    n.level = case_float(index, CASE_NUMBER_LEVEL);
+    n.probe = case_float(index, CASE_NUMBER_PROBE);
+    n.sign_ = case_float(index, CASE_NUMBER_SIGN);
+    n.negative_tap = case_vec3(index, CASE_NEGATIVE_X);
+    n.negative_sign = case_float(index, CASE_NEGATIVE_SIGN);
     return n;
 }
 
@@ -143,16 +143,16 @@ Result draw_lookup(Lookup l, DrawNumbers n) {
 }
 
 RandomAddress case_address(uint index) {
-    return RandomAddress(uvec2(case_uint(index, 47u), case_uint(index, 48u)), case_uint(index, 49u), case_uint(index, 50u),
-                         case_uint(index, 51u), case_uint(index, 52u));
+    return RandomAddress(uvec2(case_uint(index, CASE_PIXEL_X), case_uint(index, CASE_PIXEL_Y)), case_uint(index, CASE_SAMPLE),
+                         case_uint(index, CASE_SURFACE), case_uint(index, CASE_DIMENSION), case_uint(index, CASE_SEED));
 }
 
 // OP_DRAW, and OP_MEAN: the mean of draws with the numbers of samples s, s + 1, ...
 Result draw_case(uint index) {
     Lookup l = load_lookup(index);
-    bool mean = case_uint(index, 0u) == OP_MEAN;
+    bool mean = case_uint(index, CASE_OP) == OP_MEAN;
     RandomAddress a = case_address(index);
-    uint count = mean ? case_uint(index, 55u) : 1u;
+    uint count = mean ? case_uint(index, CASE_COUNT) : 1u;
     vec4 sum = vec4(0.0);
     Result r = no_result();
     for (uint s = 0u; s < count; ++s) {

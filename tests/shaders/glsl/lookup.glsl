@@ -40,27 +40,27 @@ vec4 flatten(Lookup l, vec3 dx, vec3 dy) {
 
 Lookup load_lookup(uint index) {
     Lookup l;
-    l.shape = texture_shape(case_uint(index, 1u));
-    l.wrap = uvec3(case_uint(index, 2u), case_uint(index, 3u), case_uint(index, 4u));
-    l.minify = case_kernel(index, 5u);
-    l.magnify = case_kernel(index, 8u);
-    l.estimator = case_uint(index, 11u);
-    l.mip = case_uint(index, 12u);
-    l.lod_rule = case_uint(index, 13u);
-    l.most_probes = case_int(index, 14u);
-    l.probe_variance = case_float(index, 15u);
-    l.ellipse = case_float(index, 16u);
-    l.hybrid_bias = case_float(index, 17u);
-    l.lod_bias = case_float(index, 18u);
-    l.min_lod = case_float(index, 19u);
-    l.max_lod = case_float(index, 20u);
-    l.border = vec4(case_vec3(index, 21u), case_float(index, 24u));
-    l.at = case_vec3(index, 25u);
-    vec3 dx = case_vec3(index, 28u), dy = case_vec3(index, 31u);
+    l.shape = texture_shape(case_uint(index, CASE_TEXTURE));
+    l.wrap = uvec3(case_uint(index, CASE_WRAP_S), case_uint(index, CASE_WRAP_T), case_uint(index, CASE_WRAP_R));
+    l.minify = case_kernel(index, CASE_MINIFY);
+    l.magnify = case_kernel(index, CASE_MAGNIFY);
+    l.estimator = case_uint(index, CASE_ESTIMATOR);
+    l.mip = case_uint(index, CASE_MIP);
+    l.lod_rule = case_uint(index, CASE_LOD_RULE);
+    l.most_probes = case_int(index, CASE_PROBES);
+    l.probe_variance = case_float(index, CASE_PROBE_VARIANCE);
+    l.ellipse = case_float(index, CASE_ELLIPSE);
+    l.hybrid_bias = case_float(index, CASE_HYBRID_BIAS);
+    l.lod_bias = case_float(index, CASE_LOD_BIAS);
+    l.min_lod = case_float(index, CASE_MIN_LOD);
+    l.max_lod = case_float(index, CASE_MAX_LOD);
+    l.border = vec4(case_vec3(index, CASE_BORDER), case_float(index, CASE_BORDER + 3u));
+    l.at = case_vec3(index, CASE_AT);
+    vec3 dx = case_vec3(index, CASE_DX), dy = case_vec3(index, CASE_DY);
     l.dx = dx.xy;
     l.dy = dy.xy;
     // The nearest layer, ties to even, within the array.
-    float layer = case_float(index, 34u);
+    float layer = case_float(index, CASE_LAYER);
     int members = l.shape.layers / (l.shape.cube ? 6 : 1);
     l.slice = int(roundEven(clamp(is_finite(layer) ? layer : 0.0, 0.0, float(members - 1))));
     if (is_volume(l)) {
@@ -272,8 +272,8 @@ Result filter_case(uint index) {
     if (k.kind == KERNEL_NEAREST) r.texel = nearest_texel(l, d.levels.finer);
     r.lod = d.levels.lod;
     r.probes = d.probes;
-    bool shades = case_uint(index, 0u) == OP_SHADE, after = case_uint(index, 56u) == 1u;
-    uint shader = shades ? case_uint(index, 57u) : 0u;
+    bool shades = case_uint(index, CASE_OP) == OP_SHADE, after = case_uint(index, CASE_ORDER) == 1u;
+    uint shader = shades ? case_uint(index, CASE_SHADER) : 0u;
     r.value = filter_lookup(l, d, after ? shader : 0u);
     if (!after) r.value = shade_texel(shader, r.value);
     return r;

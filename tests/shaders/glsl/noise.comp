@@ -1,20 +1,16 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // The port of suite noise: numbers of two dimensions.
-#include "contract.glsl"
+#include "each_case.glsl"
 #include "noise.glsl"
 
-void main() {
-    uint index = gl_GlobalInvocationID.x;
-    if (index >= case_count) return;
-    index += first_case;
-    uint op = case_uint(index, 0u);
+Result answer(uint op, uint index) {
     Result r = no_result();
     if (op == OP_NOISE_PAIR) {
-        RandomAddress a = RandomAddress(uvec2(case_uint(index, 47u), case_uint(index, 48u)), case_uint(index, 49u), case_uint(index, 50u),
-                                        case_uint(index, 51u), case_uint(index, 52u));
-        uvec2 bits = noise_pair(case_uint(index, 53u), a, case_uint(index, 54u));
+        RandomAddress a = RandomAddress(uvec2(case_uint(index, CASE_PIXEL_X), case_uint(index, CASE_PIXEL_Y)), case_uint(index, CASE_SAMPLE),
+                                        case_uint(index, CASE_SURFACE), case_uint(index, CASE_DIMENSION), case_uint(index, CASE_SEED));
+        uvec2 bits = noise_pair(case_uint(index, CASE_NOISE), a, case_uint(index, CASE_SECOND_DIMENSION));
         r.value = vec4(unit_float(bits.x), unit_float(bits.y), 0.0, 0.0);
     }
-    write_result(index, r);
+    return r;
 }

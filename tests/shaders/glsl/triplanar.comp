@@ -1,19 +1,15 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // The port of suite triplanar: planes, weighed and drawn.
-#include "contract.glsl"
+#include "each_case.glsl"
 #include "triplanar.glsl"
 
-void main() {
-    uint index = gl_GlobalInvocationID.x;
-    if (index >= case_count) return;
-    index += first_case;
-    uint op = case_uint(index, 0u);
+Result answer(uint op, uint index) {
     Result r = no_result();
     if (op == OP_PLANE) {
-        vec3 weights = plane_weights(case_vec3(index, 25u), case_uint(index, 55u));
-        r.texel.x = draw_plane(weights, case_float(index, 35u));
+        vec3 weights = plane_weights(case_vec3(index, CASE_AT), case_uint(index, CASE_COUNT));
+        r.texel.x = draw_plane(weights, case_float(index, CASE_NUMBER_X));
         r.value = vec4(weights, 0.0);
     }
-    write_result(index, r);
+    return r;
 }

@@ -27,6 +27,49 @@ const ESTIMATOR_RESERVOIR = 1u;
 const ESTIMATOR_JITTER = 2u;
 const ESTIMATOR_ABS_WEIGHT = 3u;
 
+// Words of a case, by the names that docs/porting.md has.
+const CASE_OP = 0u;
+const CASE_TEXTURE = 1u;
+const CASE_WRAP_S = 2u;
+const CASE_WRAP_T = 3u;
+const CASE_WRAP_R = 4u;
+const CASE_MINIFY = 5u;
+const CASE_MAGNIFY = 8u;
+const CASE_ESTIMATOR = 11u;
+const CASE_MIP = 12u;
+const CASE_LOD_RULE = 13u;
+const CASE_PROBES = 14u;
+const CASE_PROBE_VARIANCE = 15u;
+const CASE_ELLIPSE = 16u;
+const CASE_HYBRID_BIAS = 17u;
+const CASE_LOD_BIAS = 18u;
+const CASE_MIN_LOD = 19u;
+const CASE_MAX_LOD = 20u;
+const CASE_BORDER = 21u;
+const CASE_AT = 25u;
+const CASE_DX = 28u;
+const CASE_DY = 31u;
+const CASE_LAYER = 34u;
+const CASE_NUMBER_X = 35u;
+const CASE_NUMBER_LEVEL = 38u;
+const CASE_NUMBER_PROBE = 39u;
+const CASE_NUMBER_SIGN = 40u;
+const CASE_NEGATIVE_X = 41u;
+const CASE_NEGATIVE_SIGN = 44u;
+const CASE_INDEX = 45u;
+const CASE_EXTENT = 46u;
+const CASE_PIXEL_X = 47u;
+const CASE_PIXEL_Y = 48u;
+const CASE_SAMPLE = 49u;
+const CASE_SURFACE = 50u;
+const CASE_DIMENSION = 51u;
+const CASE_SEED = 52u;
+const CASE_NOISE = 53u;
+const CASE_SECOND_DIMENSION = 54u;
+const CASE_COUNT = 55u;
+const CASE_ORDER = 56u;
+const CASE_SHADER = 57u;
+
 fn case_uint(index: u32, word: u32) -> u32 {
     return case_words[64u * index + word];
 }

@@ -15,12 +15,12 @@ struct DrawNumbers {
 
 fn case_numbers(index: u32) -> DrawNumbers {
     var n: DrawNumbers;
-    n.tap = case_vec3(index, 35u);
-    n.level = case_float(index, 38u);
-    n.probe = case_float(index, 39u);
-    n.sign_ = case_float(index, 40u);
-    n.negative_tap = case_vec3(index, 41u);
-    n.negative_sign = case_float(index, 44u);
+    n.tap = case_vec3(index, CASE_NUMBER_X);
+    n.level = case_float(index, CASE_NUMBER_LEVEL);
+    n.probe = case_float(index, CASE_NUMBER_PROBE);
+    n.sign_ = case_float(index, CASE_NUMBER_SIGN);
+    n.negative_tap = case_vec3(index, CASE_NEGATIVE_X);
+    n.negative_sign = case_float(index, CASE_NEGATIVE_SIGN);
     return n;
 }
 
@@ -163,15 +163,15 @@ fn draw_lookup(l: Lookup, n: DrawNumbers) -> Result {
 }
 
 fn case_address(index: u32) -> RandomAddress {
-    return RandomAddress(vec2u(case_uint(index, 47u), case_uint(index, 48u)), case_uint(index, 49u), case_uint(index, 50u), case_uint(index, 51u), case_uint(index, 52u));
+    return RandomAddress(vec2u(case_uint(index, CASE_PIXEL_X), case_uint(index, CASE_PIXEL_Y)), case_uint(index, CASE_SAMPLE), case_uint(index, CASE_SURFACE), case_uint(index, CASE_DIMENSION), case_uint(index, CASE_SEED));
 }
 
 // OP_DRAW, and OP_MEAN: the mean of draws with the numbers of samples s, s + 1, ...
 fn draw_case(index: u32) -> Result {
     let l: Lookup = load_lookup(index);
-    let mean: bool = case_uint(index, 0u) == OP_MEAN;
+    let mean: bool = case_uint(index, CASE_OP) == OP_MEAN;
     var a: RandomAddress = case_address(index);
-    let count: u32 = select(1u, case_uint(index, 55u), mean);
+    let count: u32 = select(1u, case_uint(index, CASE_COUNT), mean);
     var sum: vec4f = vec4f(0.0);
     var r: Result = no_result();
     for (var s: u32 = 0u; s < count; s++) {

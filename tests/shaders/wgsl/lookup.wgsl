@@ -54,28 +54,28 @@ fn flatten(l: Lookup, dx: vec3f, dy: vec3f) -> vec4f {
 
 fn load_lookup(index: u32) -> Lookup {
     var l: Lookup;
-    l.shape = texture_shape(case_uint(index, 1u));
-    l.wrap = vec3u(case_uint(index, 2u), case_uint(index, 3u), case_uint(index, 4u));
-    l.minify = case_kernel(index, 5u);
-    l.magnify = case_kernel(index, 8u);
-    l.estimator = case_uint(index, 11u);
-    l.mip = case_uint(index, 12u);
-    l.lod_rule = case_uint(index, 13u);
-    l.most_probes = case_int(index, 14u);
-    l.probe_variance = case_float(index, 15u);
-    l.ellipse = case_float(index, 16u);
-    l.hybrid_bias = case_float(index, 17u);
-    l.lod_bias = case_float(index, 18u);
-    l.min_lod = case_float(index, 19u);
-    l.max_lod = case_float(index, 20u);
-    l.border = vec4f(case_vec3(index, 21u), case_float(index, 24u));
-    l.at = case_vec3(index, 25u);
-    let dx: vec3f = case_vec3(index, 28u);
-    let dy: vec3f = case_vec3(index, 31u);
+    l.shape = texture_shape(case_uint(index, CASE_TEXTURE));
+    l.wrap = vec3u(case_uint(index, CASE_WRAP_S), case_uint(index, CASE_WRAP_T), case_uint(index, CASE_WRAP_R));
+    l.minify = case_kernel(index, CASE_MINIFY);
+    l.magnify = case_kernel(index, CASE_MAGNIFY);
+    l.estimator = case_uint(index, CASE_ESTIMATOR);
+    l.mip = case_uint(index, CASE_MIP);
+    l.lod_rule = case_uint(index, CASE_LOD_RULE);
+    l.most_probes = case_int(index, CASE_PROBES);
+    l.probe_variance = case_float(index, CASE_PROBE_VARIANCE);
+    l.ellipse = case_float(index, CASE_ELLIPSE);
+    l.hybrid_bias = case_float(index, CASE_HYBRID_BIAS);
+    l.lod_bias = case_float(index, CASE_LOD_BIAS);
+    l.min_lod = case_float(index, CASE_MIN_LOD);
+    l.max_lod = case_float(index, CASE_MAX_LOD);
+    l.border = vec4f(case_vec3(index, CASE_BORDER), case_float(index, CASE_BORDER + 3u));
+    l.at = case_vec3(index, CASE_AT);
+    let dx: vec3f = case_vec3(index, CASE_DX);
+    let dy: vec3f = case_vec3(index, CASE_DY);
     l.dx = dx.xy;
     l.dy = dy.xy;
     // The nearest layer, ties to even, within the array.
-    let layer: f32 = case_float(index, 34u);
+    let layer: f32 = case_float(index, CASE_LAYER);
     let members: i32 = l.shape.layers / (select(1, 6, l.shape.cube));
     l.slice = i32(round(clamp(select(0.0, layer, is_finite(layer)), 0.0, f32(members - 1))));
     if (is_volume(l)) {
@@ -341,9 +341,9 @@ fn filter_case(index: u32) -> Result {
     }
     r.lod = d.levels.lod;
     r.probes = d.probes;
-    let shades: bool = case_uint(index, 0u) == OP_SHADE;
-    let after: bool = case_uint(index, 56u) == 1u;
-    let shader: u32 = select(0u, case_uint(index, 57u), shades);
+    let shades: bool = case_uint(index, CASE_OP) == OP_SHADE;
+    let after: bool = case_uint(index, CASE_ORDER) == 1u;
+    let shader: u32 = select(0u, case_uint(index, CASE_SHADER), shades);
     r.value = filter_lookup(l, d, select(0u, shader, after));
     if (!after) {
         r.value = shade_texel(shader, r.value);

@@ -1,19 +1,14 @@
 // The port of suite addressing: indices and coordinates wrapped.
+// include "each_case.wgsl"
 // include "lookup.wgsl"
 
-@compute @workgroup_size(64)
-fn main(@builtin(global_invocation_id) id: vec3u) {
-    let index = id.x;
-    if (index >= case_count()) {
-        return;
-    }
-    let op: u32 = case_uint(index, 0u);
+fn answer(op: u32, index: u32) -> Result {
     var r: Result = no_result();
     if (op == OP_SAMPLE) {
         r = filter_case(index);
     }
     if (op == OP_WRAP_INDEX) {
-        r.texel.x = wrap_index(case_uint(index, 2u), case_int(index, 45u), case_int(index, 46u));
+        r.texel.x = wrap_index(case_uint(index, CASE_WRAP_S), case_int(index, CASE_INDEX), case_int(index, CASE_EXTENT));
     }
-    write_result(index, r);
+    return r;
 }

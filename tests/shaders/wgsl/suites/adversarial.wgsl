@@ -1,13 +1,8 @@
 // The port of suite adversarial: the known pitfalls.
+// include "each_case.wgsl"
 // include "draw.wgsl"
 
-@compute @workgroup_size(64)
-fn main(@builtin(global_invocation_id) id: vec3u) {
-    let index = id.x;
-    if (index >= case_count()) {
-        return;
-    }
-    let op: u32 = case_uint(index, 0u);
+fn answer(op: u32, index: u32) -> Result {
     var r: Result = no_result();
     if ((op == OP_SAMPLE) || (op == OP_SHADE)) {
         r = filter_case(index);
@@ -19,5 +14,5 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
         r.bits = random_bits(case_address(index));
         r.value.x = unit_float(r.bits);
     }
-    write_result(index, r);
+    return r;
 }

@@ -1,20 +1,13 @@
 // The port of suite bc-decode: texels of compressed blocks.
-// include "contract.wgsl"
-
+// include "each_case.wgsl"
 // include "blocks.wgsl"
 
-@compute @workgroup_size(64)
-fn main(@builtin(global_invocation_id) id: vec3u) {
-    let index = id.x;
-    if (index >= case_count()) {
-        return;
-    }
-    let op: u32 = case_uint(index, 0u);
+fn answer(op: u32, index: u32) -> Result {
     var r: Result = no_result();
     if (op == OP_BLOCK_TEXEL) {
-        let number: u32 = case_uint(index, 1u);
+        let number: u32 = case_uint(index, CASE_TEXTURE);
         let t: TextureShape = texture_shape(number);
-        let texel: vec2u = vec2u(case_uint(index, 45u), case_uint(index, 46u));
+        let texel: vec2u = vec2u(case_uint(index, CASE_INDEX), case_uint(index, CASE_EXTENT));
         let format: u32 = texture_format(number);
         let columns: u32 = (u32(t.extent.x) + 3u) / 4u;
         let at: u32 = texture_first_word(number) + (block_words(format) * ((texel.x / 4u) + (columns * (texel.y / 4u))));
@@ -24,5 +17,5 @@ fn main(@builtin(global_invocation_id) id: vec3u) {
         }
         r.value = decode_texel(format, block, (texel.x % 4u) + (4u * (texel.y % 4u)));
     }
-    write_result(index, r);
+    return r;
 }

@@ -1,19 +1,13 @@
 // The port of suite elliptical: ellipses, weighed and drawn.
+// include "each_case.wgsl"
 // include "draw.wgsl"
 
-@compute @workgroup_size(64)
-fn main(@builtin(global_invocation_id) id: vec3u) {
-    let index = id.x;
-    if (index >= case_count()) {
-        return;
-    }
-    let op: u32 = case_uint(index, 0u);
-    var r: Result = no_result();
+fn answer(op: u32, index: u32) -> Result {
     if (op == OP_SAMPLE) {
-        r = filter_case(index);
+        return filter_case(index);
     }
     if (op == OP_DRAW) {
-        r = draw_case(index);
+        return draw_case(index);
     }
-    write_result(index, r);
+    return no_result();
 }
