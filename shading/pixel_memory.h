@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <initializer_list>
 #include <memory>
+#include <new>
+#include <span>
 #include <utility>
 
 namespace rawtexel::shading {
@@ -23,9 +27,12 @@ struct FreePixels {
 class PixelValues {
   public:
     PixelValues() = default;
+    /// Throws std::bad_alloc.
     explicit PixelValues(size_t size)
-        : memory_(static_cast<float*>(allocate_pixels(size * sizeof(float))), FreePixels{size * sizeof(float)}), size_(size) {}
+        : memory_(static_cast<float*>(allocate_pixels(bytes_of(size))), FreePixels{bytes_of(size)}), size_(size) {}
     PixelValues(size_t size, float value) : PixelValues(size) { std::fill_n(data(), size, value); }
+    PixelValues(std::span<const float> values) : PixelValues(values.size()) { std::ranges::copy(values, data()); }
+    PixelValues(std::initializer_list<float> values) : PixelValues(std::span(values.begin(), values.size())) {}
     PixelValues(const PixelValues& other) : PixelValues(other.size()) { std::copy_n(other.data(), size_, data()); }
     PixelValues(PixelValues&& other) noexcept : memory_(std::move(other.memory_)), size_(std::exchange(other.size_, 0)) {}
     PixelValues& operator=(PixelValues other) noexcept {
@@ -45,8 +52,14 @@ class PixelValues {
     float& operator[](size_t i) { return data()[i]; }
     const float& operator[](size_t i) const { return data()[i]; }
     bool operator==(const PixelValues& other) const { return std::ranges::equal(*this, other); }
+    bool operator==(std::span<const float> other) const { return std::ranges::equal(*this, other); }
 
   private:
+    static size_t bytes_of(size_t size) {
+        if (size > SIZE_MAX / sizeof(float)) throw std::bad_alloc();
+        return size * sizeof(float);
+    }
+
     std::unique_ptr<float[], FreePixels> memory_;
     size_t size_ = 0;
 };

@@ -1,6 +1,6 @@
 // Fetching the taps of narrow kernels, those included that lie beyond the edges of a border or of a cube map's face.
 #include "texunit/cube-inl.h"
-#include "texunit/texel_window-inl.h"
+#include "texunit/texel_reader-inl.h"
 
 #include <hwy/highway.h>
 
@@ -132,9 +132,6 @@ HWY_NOINLINE void fetch_beyond_edges(Texture& texture, const std::array<float, 4
 /// Ensures and gathers the texels of `taps`. All lanes are read: inactive ones repeat an active one (fill_inactive).
 template <StorageClass storage, int W>
 HWY_NOINLINE void fetch(Texture& texture, const std::array<float, 4>& border, bool cube, const TapWave<W>& taps, TexelWave<W * W>& out) {
-    if constexpr (has_windows(storage) && W > 1) {
-        if (!taps.leaves && taps.slice == nullptr && fetch_window<storage>(texture, taps, out)) return;
-    }
     WaveInt index[W * W];
     tap_indices<storage>(texture.levels(), taps, index);
     if (taps.leaves) return fetch_beyond_edges<storage>(texture, border, cube, taps, index, out);

@@ -2,6 +2,7 @@
 // those of fetch() and filter().
 #include "texunit/filter-inl.h"
 #include "texunit/packed_texels-inl.h"
+#include "texunit/texel_window-inl.h"
 
 #include <hwy/highway.h>
 
@@ -44,28 +45,40 @@ HWY_NOINLINE void filter_packed_taps(const Texture& texture, const WaveInt (&ind
 }
 
 /// Where all taps fall into a window: its texels are unpacked once.
-template <PackedFields fields>
+template <PackedFields fields, int registers>
 HWY_NOINLINE void filter_packed_window(Texture& texture, const TexelWindow& window, const TapWave<2>& taps, WaveColor& out) {
     const IntTag di;
     const PackedDecoder<fields> decoder(texture.texel_layout());
     const auto* const base = reinterpret_cast<const uint32_t*>(texture.texels());
-    FloatVec texel[4];
-    decoder.values(gather_from(base, ensure_window<StorageClass::Packed32>(texture, window, *taps.level)), texel);
+    IntVec index[registers];
+    ensure_window<StorageClass::Packed32>(texture, window, *taps.level, index);
+    FloatVec texel[4][registers];
+    for (int r = 0; r < registers; ++r) {
+        FloatVec value[4];
+        decoder.values(gather_from(base, index[r]), value);
+        for (int c = 0; c < 4; ++c) texel[c][r] = value[c];
+    }
     const auto read = [&](int tap, size_t i, FloatVec(&value)[4]) HWY_ATTR {
         const auto at = in_window(window, hn::Load(di, taps.x[tap % 2].lane + i), hn::Load(di, taps.y[tap / 2].lane + i));
-        for (int c = 0; c < 4; ++c) value[c] = hn::TableLookupLanes(texel[c], at);
+        for (int c = 0; c < 4; ++c) value[c] = pick(texel[c], at);
     };
     filter_values(taps, read, out);
 }
+
+/// The most registers of a window that take less time than reading the taps one by one.
+inline constexpr int kBilinearWindowRegisters = 2;
 
 /// Ensures, gathers and filters taps of which none lies beyond an edge.
 HWY_NOINLINE inline void filter_packed_bilinear(Texture& texture, const TapWave<2>& taps, WaveColor& out) {
     const PackedFields fields = texture.texel_layout().fields;
     if constexpr (has_windows(StorageClass::Packed32)) {
         TexelWindow window;
-        if (taps.slice == nullptr && find_window(*taps.level, taps.x, 2, taps.y, 2, window)) {
-            with_fields(fields,
-                        [&](auto constant) HWY_ATTR { filter_packed_window<decltype(constant)::value>(texture, window, taps, out); });
+        if (taps.slice == nullptr && find_window(*taps.level, taps.x, 2, taps.y, 2, kBilinearWindowRegisters, window)) {
+            with_fields(fields, [&](auto constant) HWY_ATTR {
+                constexpr PackedFields kFields = decltype(constant)::value;
+                if (window.registers == 1) return filter_packed_window<kFields, 1>(texture, window, taps, out);
+                filter_packed_window<kFields, 2>(texture, window, taps, out);
+            });
             return;
         }
     }

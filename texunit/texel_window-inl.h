@@ -19,13 +19,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Whether a vector register holds a window, so that a tap is one permutation.
 constexpr bool has_windows(StorageClass storage) { return HWY_TARGET == HWY_AVX3 && storage == StorageClass::Packed32; }
 
-/// Texels of one level on either side of a window.
-inline constexpr int kWindow = 4;
+/// Texels that a vector register holds of one channel, and the most registers that a window takes.
+inline constexpr int kRegisterTexels = 16;
+inline constexpr int kMostWindowRegisters = 4;
 
-/// Up to 4x4 texels of one level that hold all taps of a wave, as under magnification.
+/// Up to 64 texels of one level that hold all taps of a wave, as under magnification: rows of 4, 8 or 16.
 struct TexelWindow {
     int32_t x, y;  ///< of its first texel
     int32_t last_x, last_y;
+    int log2_columns;
+    int registers;  ///< 1, 2 or 4
 };
 
 /// The least and the largest of `count` waves.
@@ -43,68 +46,97 @@ HWY_INLINE void find_range(const WaveInt* waves, int count, int32_t& least, int3
     most = hn::GetLane(hn::MaxOfLanes(d, high));
 }
 
-/// False where the taps lie farther apart, or in several levels.
-HWY_INLINE bool find_window(const WaveInt& level, const WaveInt* x, int columns, const WaveInt* y, int rows, TexelWindow& window) {
+/// False where the taps lie farther apart than `registers` reach, or in several levels.
+HWY_INLINE bool find_window(const WaveInt& level, const WaveInt* x, int columns, const WaveInt* y, int rows, int registers,
+                            TexelWindow& window) {
     find_range(x, columns, window.x, window.last_x);
-    if (window.last_x - window.x >= kWindow) return false;
+    const int width = window.last_x - window.x + 1;
+    if (width > kRegisterTexels) return false;
+    window.log2_columns = width <= 4 ? 2 : width <= 8 ? 3 : 4;
     find_range(y, rows, window.y, window.last_y);
-    if (window.last_y - window.y >= kWindow) return false;
+    const int height = window.last_y - window.y + 1;
+    if (height > registers * kRegisterTexels >> window.log2_columns) return false;
+    const int texels = height << window.log2_columns;
+    window.registers = texels <= kRegisterTexels ? 1 : texels <= 2 * kRegisterTexels ? 2 : 4;
     int32_t finest, coarsest;
     find_range(&level, 1, finest, coarsest);
     return finest == coarsest;
 }
 
-/// Makes sure that the window's texels may be read, and gives the indices of its 4x4; beyond its last column and row those repeat.
-template <StorageClass storage>
-HWY_INLINE IntVec ensure_window(Texture& texture, const TexelWindow& window, const WaveInt& level) {
-    const IntTag d;
-    const LevelTable& table = texture.levels();
-    const auto lane = hn::Iota(d, 0);
-    const auto x = hn::Min(hn::Add(hn::Set(d, window.x), hn::And(lane, hn::Set(d, kWindow - 1))), hn::Set(d, window.last_x));
-    const auto y = hn::Min(hn::Add(hn::Set(d, window.y), hn::ShiftRight<2>(lane)), hn::Set(d, window.last_y));
-    const auto of_level = hn::Load(d, level.lane);
-    const auto row = row_offset_v<storage>(y, look_up_level(d, table.row_stride, of_level));
-    const auto index = hn::Add(hn::Add(look_up_level(d, table.offset, of_level), column_offset_v<storage>(x)), row);
-    const uint32_t ready = texture.ready_levels();
-    if ((ready >> level[0] & 1) != 0) return index;
-    WaveInt indices[1];
-    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) hn::Store(index, d, indices[0].lane + i);
-    // A window touches the blocks of its corners and no others.
-    bool all = true;
-    for (const size_t corner : {0, kWindow - 1, kWindow * (kWindow - 1), kWindow * kWindow - 1}) {
-        const int32_t texel = indices[0].lane[corner];
+/// Whether the blocks of these texels are ready: those of its corners, where a window of 4x4 lies in no others.
+HWY_INLINE bool corners_are_ready(const Texture& texture, const WaveInt& index) {
+    for (const size_t corner : {0, 3, 12, 15}) {
+        const int32_t texel = index.lane[corner];
         const int block = texel >> kLog2TexelsPerBlock & (BlockStates::kGroup - 1);
-        all = all && (texture.ready_blocks(texel >> kLog2TexelsPerGroup) >> block & 1) != 0;
-    }
-    if (!all) ensure_blocks(texture, indices);
-    return index;
-}
-
-/// Where taps at (x, y) are in the window, for TableLookupLanes.
-HWY_INLINE auto in_window(const TexelWindow& window, IntVec x, IntVec y) {
-    const IntTag d;
-    const auto column = hn::Sub(x, hn::Set(d, window.x)), row = hn::Sub(y, hn::Set(d, window.y));
-    return hn::IndicesFromVec(FloatTag(), hn::Add(column, hn::ShiftLeft<2>(row)));
-}
-
-/// Ensures and reads the taps of a wave that fit into a window; false where they do not.
-template <StorageClass storage, int W>
-HWY_INLINE bool fetch_window(Texture& texture, const TapWave<W>& taps, TexelWave<W * W>& out) {
-    TexelWindow window;
-    if (!find_window(*taps.level, taps.x, W, taps.y, W, window)) return false;
-    const FloatTag d;
-    const IntTag di;
-    const TexelReader<storage, false> reader(texture);
-    FloatVec texel[4];
-    reader.read(ensure_window<storage>(texture, window, *taps.level), texel);
-    for (int c = 0; c < 4; ++c) texel[c] = reader.value(c, texel[c]);
-    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
-        for (int tap = 0; tap < W * W; ++tap) {
-            const auto at = in_window(window, hn::Load(di, taps.x[tap % W].lane + i), hn::Load(di, taps.y[tap / W].lane + i));
-            for (int c = 0; c < 4; ++c) hn::Store(hn::TableLookupLanes(texel[c], at), d, out.channel[c][tap].lane + i);
-        }
+        if ((texture.ready_blocks(texel >> kLog2TexelsPerGroup) >> block & 1) == 0) return false;
     }
     return true;
+}
+
+/// Makes sure that the window's texels may be read, and gives their indices, register by register; beyond its last column and row those
+/// repeat.
+template <StorageClass storage, int registers>
+HWY_INLINE void ensure_window(Texture& texture, const TexelWindow& window, const WaveInt& level, IntVec (&index)[registers]) {
+    const IntTag d;
+    const LevelTable& table = texture.levels();
+    const auto of_level = hn::Load(d, level.lane);
+    const auto offset = look_up_level(d, table.offset, of_level), row_stride = look_up_level(d, table.row_stride, of_level);
+    WaveInt indices[(registers + 1) / 2];
+    for (int r = 0; r < registers; ++r) {
+        const auto place = hn::Iota(d, r * kRegisterTexels);
+        const auto column = hn::And(place, hn::Set(d, (1 << window.log2_columns) - 1)),
+                   row = hn::ShiftRightSame(place, window.log2_columns);
+        const auto x = hn::Min(hn::Add(hn::Set(d, window.x), column), hn::Set(d, window.last_x));
+        const auto y = hn::Min(hn::Add(hn::Set(d, window.y), row), hn::Set(d, window.last_y));
+        index[r] = hn::Add(hn::Add(offset, column_offset_v<storage>(x)), row_offset_v<storage>(y, row_stride));
+        for (size_t i = 0; i < kWaveLanes; i += kRegisterTexels)
+            if (registers == 1 || i / kRegisterTexels == size_t(r % 2)) hn::Store(index[r], d, indices[r / 2].lane + i);
+    }
+    if ((texture.ready_levels() >> level[0] & 1) != 0) return;
+    if (registers == 1 && corners_are_ready(texture, indices[0])) return;
+    ensure_blocks(texture, indices);
+}
+
+/// Where taps at (x, y) are in the window.
+HWY_INLINE IntVec in_window(const TexelWindow& window, IntVec x, IntVec y) {
+    const IntTag d;
+    const auto column = hn::Sub(x, hn::Set(d, window.x)), row = hn::Sub(y, hn::Set(d, window.y));
+    return hn::Add(column, hn::ShiftLeftSame(row, window.log2_columns));
+}
+
+/// One channel's values at `at`, of a window's registers.
+template <int registers>
+HWY_INLINE FloatVec pick(const FloatVec (&texel)[registers], IntVec at) {
+#if HWY_TARGET == HWY_AVX3
+    if constexpr (registers == 1) {
+        return hn::TableLookupLanes(texel[0], hn::IndicesFromVec(FloatTag(), at));
+    } else {
+        const auto of_two = [&](int r) HWY_ATTR __attribute__((always_inline)) {
+            return FloatVec{_mm512_permutex2var_ps(texel[r].raw, at.raw, texel[r + 1].raw)};
+        };
+        if constexpr (registers == 2) return of_two(0);
+        if constexpr (registers == 4) {
+            const hn::RebindToSigned<FloatTag> d;
+            const auto upper = hn::TestBit(at, hn::Set(d, 2 * kRegisterTexels));
+            return hn::IfThenElse(hn::RebindMask(FloatTag(), upper), of_two(2), of_two(0));
+        }
+    }
+#else
+    (void)at;
+    return texel[0];  // has_windows()
+#endif
+}
+
+/// Calls `act` with the number of a window's registers as a constant of the type std::integral_constant.
+template <class Act>
+HWY_INLINE void with_registers(const TexelWindow& window, const Act& act) {
+    if (window.registers == 1) {
+        act(std::integral_constant<int, 1>());
+    } else if (window.registers == 2) {
+        act(std::integral_constant<int, 2>());
+    } else {
+        act(std::integral_constant<int, 4>());
+    }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,5 +1,6 @@
 // The weighted mean over the taps of a kernel of any width: texels are gathered, unpacked and weighed tap by tap, sums stay in registers.
 #include "texunit/fetch_edges-inl.h"
+#include "texunit/texel_window-inl.h"
 #include "texunit/wide_taps-inl.h"
 
 #include <hwy/highway.h>
@@ -201,13 +202,19 @@ HWY_NOINLINE void sum_taps_as(const Texture& texture, const WideTaps& taps, cons
 }
 
 /// The same where all taps fall into a window.
-template <StorageClass storage, bool plain>
+template <StorageClass storage, bool plain, int registers>
 HWY_NOINLINE void sum_window_as(Texture& texture, const TexelWindow& window, const WideTaps& taps, WaveColor& out) {
     const FloatTag d;
     const IntTag di;
     const TexelReader<storage, plain> reader(texture);
-    FloatVec texel[4];
-    reader.read(ensure_window<storage>(texture, window, *taps.level), texel);
+    IntVec index[registers];
+    ensure_window<storage>(texture, window, *taps.level, index);
+    FloatVec texel[4][registers];
+    for (int r = 0; r < registers; ++r) {
+        FloatVec number[4];
+        reader.read(index[r], number);
+        for (int c = 0; c < 4; ++c) texel[c][r] = number[c];
+    }
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
         FloatVec sum[4] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
         for (int j = 0; j < taps.y.count; ++j) {
@@ -216,7 +223,7 @@ HWY_NOINLINE void sum_window_as(Texture& texture, const TexelWindow& window, con
             for (int k = 0; k < taps.x.count; ++k) {
                 const auto at = in_window(window, hn::Load(di, taps.x.texel[k].lane + i), y);
                 FloatVec read[4];
-                for (int c = 0; c < 4; ++c) read[c] = hn::TableLookupLanes(texel[c], at);
+                for (int c = 0; c < 4; ++c) read[c] = pick(texel[c], at);
                 add_weighed<storage>(hn::Load(d, taps.x.weight[k].lane + i), read, row);
             }
             add_weighed<storage>(hn::Load(d, taps.y.weight[j].lane + i), row, sum);
@@ -230,12 +237,15 @@ template <StorageClass storage>
 HWY_INLINE bool filter_window(Texture& texture, const WideTaps& taps, WaveColor& out) {
     if (taps.leaves() || taps.cube || taps.volume || taps.slice != nullptr) return false;
     TexelWindow window;
-    if (!find_window(*taps.level, taps.x.texel, taps.x.count, taps.y.texel, taps.y.count, window)) return false;
-    if (is_plain(texture.texel_layout())) {
-        sum_window_as<storage, true>(texture, window, taps, out);
-    } else {
-        sum_window_as<storage, false>(texture, window, taps, out);
-    }
+    if (!find_window(*taps.level, taps.x.texel, taps.x.count, taps.y.texel, taps.y.count, kMostWindowRegisters, window)) return false;
+    with_registers(window, [&](auto registers) HWY_ATTR {
+        constexpr int kRegisters = decltype(registers)::value;
+        if (is_plain(texture.texel_layout())) {
+            sum_window_as<storage, true, kRegisters>(texture, window, taps, out);
+        } else {
+            sum_window_as<storage, false, kRegisters>(texture, window, taps, out);
+        }
+    });
     return true;
 }
 

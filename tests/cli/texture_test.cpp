@@ -275,7 +275,7 @@ TEST(TextureMips, WritesTheWholePyramidIntoOneDds) {
     EXPECT_EQ(told["levels"], 4);
     EXPECT_EQ(told["faces"], 6);
     expect_codes(decoded(folder / "all.dds", folder / "o.png", {"--face", "4"}), 0, 4);
-    const std::vector<float> made = decoded(cube, folder / "o.exr", {"--face", "4", "--level", "2"}).values;
+    const shading::PixelValues made = decoded(cube, folder / "o.exr", {"--face", "4", "--level", "2"}).values;
     EXPECT_EQ(decoded(folder / "all.dds", folder / "o.exr", {"--face", "4", "--level", "2"}).values, made);
     ASSERT_EQ(run({"texture", "mips", folder / "in.png", "-o", folder / "srgb.dds", "--color-space", "srgb"}).code, kDone);
     EXPECT_EQ(info(folder / "srgb.dds")["format"], "rgba8-srgb");

@@ -96,6 +96,20 @@ TEST(SampleTree, GivesTheMeanOfAnyPart) {
     for (size_t i = 0; i < mean.size(); ++i) ASSERT_EQ(mean[i], float(sum[i + 5] / 48.0)) << i;
 }
 
+TEST(SampleTree, ScaledSumsAreTheMeanToTheBit) {
+    for (const uint64_t count : {1, 2, 3, 4, 8, 12, 16, 32}) {
+        const SampleTree tree = tree_of(0, count);
+        const auto scaled = tree.scaled_sums();
+        // One sum of floats holds powers of two up to sixteen.
+        ASSERT_EQ(scaled.has_value(), count <= 16 && (count & (count - 1)) == 0) << count;
+        if (!scaled) continue;
+        std::vector<float> mean(kWidth);
+        tree.mean(0, mean);
+        ASSERT_EQ(scaled->sum.size(), size_t(kWidth));
+        for (size_t i = 0; i < mean.size(); ++i) ASSERT_EQ(scaled->sum[i] * scaled->share, mean[i]) << i;
+    }
+}
+
 TEST(SampleTree, HoldsEqualSamplesExactly) {
     SampleTree tree(1);
     const float value = 1.0f + 0x1p-20f;

@@ -326,7 +326,7 @@ TEST(BranchBits, DoNotDependOnTheInstructionSet) {
     const Lighting lighting = busy_lighting(scene, *executor);
     for (const FilteringOptions& filtering : {FilteringOptions{}, kListed, kDrawn}) {
         const RenderOptions options = branched_options(filtering);
-        std::vector<float> first;
+        PixelValues first;
         for (const texunit::Simd simd : texunit::available_simd()) {
             ASSERT_TRUE(texunit::choose_simd(simd));
             const Image image = render(scene, lighting, options, *executor).radiance;

@@ -141,7 +141,7 @@ TEST_F(RenderTest, ChargesEveryTexelToItsPixel) {
     options.fetches.count = true;
     options.spp = 4;  // so that the means are exact
     const RenderResult result = render_with(options);
-    const std::vector<float>& texels = result.layers[0].image.values;
+    const PixelValues& texels = result.layers[0].image.values;
     EXPECT_EQ(uint64_t(4.0 * std::accumulate(texels.begin(), texels.end(), 0.0)), total_texels(result));
 }
 
