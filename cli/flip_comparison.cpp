@@ -56,8 +56,8 @@ FlipComparison flip_comparison(const ComparableImage& test, const ComparableImag
         errors = ldr_flip(images, request.pixels_per_degree, parallel_for);
     }
     comparison.figures = pooled_flip(errors);
-    comparison.map = Image(images.width, images.height, 1);
-    std::ranges::copy(errors, comparison.map.values.begin());
+    comparison.map = Image::unwritten(images.width, images.height, 1);
+    comparison.map.values = shading::PixelValues(errors);
     return comparison;
 }
 

@@ -87,7 +87,9 @@ class PlanesByLane {
     };
 
     void take_corners(const SetupTriangle& triangle, int lane, Corners& corners) {
-        const size_t first = size_t(triangle.corner[1] == 0) + 2 * size_t(triangle.corner[2] == 0);
+        // Pieces have no corners; take_planes() has the last word on their lanes.
+        const bool piece = triangle.bary_over_w != nullptr;
+        const size_t first = piece ? 0 : size_t(triangle.corner[1] == 0) + 2 * size_t(triangle.corner[2] == 0);
         const size_t second = first == 2 ? 0 : first + 1, third = second == 2 ? 0 : second + 1;
         const bool turned = triangle.corner[second] != 1;
         const size_t order[] = {first, second, third};
@@ -99,7 +101,7 @@ class PlanesByLane {
         scale_[0][lane] = triangle.inverse_w[first];
         scale_[1][lane] = triangle.inverse_w[turned ? third : second];
         scale_[2][lane] = triangle.inverse_w[turned ? second : third];
-        corners.pieces |= uint32_t{triangle.bary_over_w != nullptr} << lane;
+        corners.pieces |= uint32_t{piece} << lane;
     }
 
     /// The exact lines through the edges that face the corners.
@@ -142,8 +144,6 @@ class PlanesByLane {
 
     alignas(64) double a_[3][32], b_[3][32], c_[3][32], scale_[3][32];
 };
-
-/// Sample points of a block in pixels, exact.
 
 /// The points of a block's lanes. Every term is a multiple of 2^-9, so that nothing rounds.
 HWY_INLINE void sample_points(const SampleOffset* offset, int x, int y, double* px, double* py) {
@@ -224,7 +224,7 @@ HWY_ATTR inline void barycentric_wave(const Frame& frame, const uint32_t* setup_
     const uint32_t first = setup_index[std::countr_zero(mask)];
     const size_t step = hn::Lanes(SampleLanes());
     if ((lanes_of_triangle(setup_index, first) & mask) == mask) {
-        const BroadcastPlanes planes(latest.of(frame, first));
+        const BroadcastPlanes planes(latest.of(first));
         for (size_t lane = 0; lane < 32; lane += step) barycentric_lanes(planes, px, py, lane, out);
     } else {
         const PlanesByLane planes(frame, setup_index, mask);

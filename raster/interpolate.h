@@ -35,15 +35,17 @@ struct InterpolationPlanes {
 };
 InterpolationPlanes interpolation_planes(const SetupTriangle& triangle);
 
-/// The planes of one frame's triangle that was asked for last: waves side by side often see the same.
+/// The planes of the frame's triangle that was asked for last: waves side by side often see the same.
 class LatestPlanes {
   public:
-    const InterpolationPlanes& of(const Frame& frame, uint32_t setup_index) {
-        if (setup_index != latest_) planes_ = interpolation_planes(frame.triangle(latest_ = setup_index));
+    explicit LatestPlanes(const Frame& frame) : frame_(frame) {}
+    const InterpolationPlanes& of(uint32_t setup_index) {
+        if (setup_index != latest_) planes_ = interpolation_planes(frame_.triangle(latest_ = setup_index));
         return planes_;
     }
 
   private:
+    const Frame& frame_;
     uint32_t latest_ = kNoTriangle;
     InterpolationPlanes planes_{};
 };

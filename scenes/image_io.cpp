@@ -129,8 +129,7 @@ void write_float(const std::string& path, const shading::Image& image, std::span
     if (!layers.empty() && !open_exr) throw OutputError(path + ": further layers need an OpenEXR file (.exr)");
     if (!open_exr && is_writable_format(path) && !can_encode_alpha(path) && image.channels == 4) {
         shading::Image opaque(image.width, image.height, 3);
-        const std::vector<float> colours = leading_channels(std::span<const float>(image.values), 4, 3);
-        std::ranges::copy(colours, opaque.values.begin());
+        opaque.values = shading::PixelValues(leading_channels(std::span<const float>(image.values), 4, 3));
         return write_float(path, opaque, layers, metadata, placement);
     }
     std::vector<float> values;

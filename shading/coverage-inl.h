@@ -167,7 +167,7 @@ class AlphaCoverage {
     TextureSteps steps_;
     uint32_t sample_ = 0;
     raster::BarycentricWave weights_{};
-    raster::LatestPlanes latest_planes_;
+    raster::LatestPlanes latest_planes_{frame_};
     texunit::WaveCoordinates coordinates_[kMapSlots]{};
     texunit::WaveColor maps_[kMapSlots]{};
     MaterialTaps taps_;

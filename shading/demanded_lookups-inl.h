@@ -311,7 +311,7 @@ class DemandedLookups {
     alignas(64) uint32_t triangle_[texunit::kWaveLanes];  ///< one of them, for all lanes
     alignas(64) raster::SampleOffset offset_[texunit::kWaveLanes];
     raster::BarycentricWave weights_{};
-    raster::LatestPlanes latest_planes_;
+    raster::LatestPlanes latest_planes_{frame_};
     texunit::WaveCoordinates coordinates_[kMapSlots]{};
     MaterialTaps taps_;
     uint32_t begun_ = 0;  ///< one bit a map whose draws have begun

@@ -21,8 +21,8 @@ struct SampleBlock {
     const raster::Frame& frame;
     const uint32_t* setup_index;
     const raster::SampleOffset* offset;
-    int x, y;  ///< upper left pixel
-    raster::LatestPlanes& latest;
+    int x, y;                      ///< upper left pixel
+    raster::LatestPlanes& latest;  ///< of the frame; lasts from block to block
 };
 
 /// Barycentrics of every lane's triangle at pixel (column, row) of the lane's 2x2 quad, where the lane's own offset puts the sample.

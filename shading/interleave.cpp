@@ -59,6 +59,7 @@ namespace rawtexel::shading {
 HWY_EXPORT(interleave_waves_lanes);
 
 void interleave_waves(const WavePlaneSet& planes, const PixelRect& rect, float factor, float* out, size_t out_stride) {
+    assert(rect.x0 >= rect.x1 || (rect.x0 % texunit::kWaveWidth == 0 && rect.x1 % texunit::kWaveWidth == 0));
     HWY_DYNAMIC_DISPATCH(interleave_waves_lanes)(planes, rect, factor, out, out_stride);
 }
 

@@ -10,12 +10,17 @@ namespace rawtexel::shading {
 namespace {
 
 constexpr size_t kHugePage = size_t{1} << 21;
-constexpr size_t kLarge = 2 * kHugePage;  ///< from here on memory is the system's own
+/// From here on memory is the system's own; sanitizers, which cannot look into that, get all from the heap.
+#ifdef __SANITIZE_ADDRESS__
+constexpr size_t kLarge = SIZE_MAX;
+#else
+constexpr size_t kLarge = 2 * kHugePage;
+#endif
 
 constexpr size_t whole_pages(size_t bytes) { return (bytes + kHugePage - 1) & ~(kHugePage - 1); }
 
 /// Starts at a huge page. Throws std::bad_alloc.
-void* map_pages(size_t size) {
+[[maybe_unused]] void* map_pages(size_t size) {
     void* const memory = mmap(nullptr, size + kHugePage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (memory == MAP_FAILED) throw std::bad_alloc();
     const auto first = reinterpret_cast<uintptr_t>(memory), aligned = whole_pages(first);
@@ -56,8 +61,8 @@ SpareBlock& spare_block() {
 }  // namespace
 
 void* allocate_pixels(size_t bytes) {
+    if (bytes > SIZE_MAX / 4) throw std::bad_alloc();
     if (bytes < kLarge) return ::operator new(bytes);
-    if (bytes > SIZE_MAX / 2) throw std::bad_alloc();
     void* const spare = spare_block().take(whole_pages(bytes));
     return spare != nullptr ? spare : map_pages(whole_pages(bytes));
 }

@@ -31,7 +31,7 @@ class PixelValues {
     explicit PixelValues(size_t size)
         : memory_(static_cast<float*>(allocate_pixels(bytes_of(size))), FreePixels{bytes_of(size)}), size_(size) {}
     PixelValues(size_t size, float value) : PixelValues(size) { std::fill_n(data(), size, value); }
-    PixelValues(std::span<const float> values) : PixelValues(values.size()) { std::ranges::copy(values, data()); }
+    explicit PixelValues(std::span<const float> values) : PixelValues(values.size()) { std::ranges::copy(values, data()); }
     PixelValues(std::initializer_list<float> values) : PixelValues(std::span(values.begin(), values.size())) {}
     PixelValues(const PixelValues& other) : PixelValues(other.size()) { std::copy_n(other.data(), size_, data()); }
     PixelValues(PixelValues&& other) noexcept : memory_(std::move(other.memory_)), size_(std::exchange(other.size_, 0)) {}

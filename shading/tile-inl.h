@@ -539,7 +539,7 @@ class TileRenderer {
     bool in_branch_ = false;  ///< what is shaded is blended with other branches
     // Lanes that nobody asked for are computed along with their neighbours, so they hold numbers from the start.
     PixelWave wave_{};
-    raster::LatestPlanes latest_planes_;
+    raster::LatestPlanes latest_planes_{frame_};
     raster::BarycentricWave weights_{};
     FragmentWave fragment_{};
     MapColors maps_{};

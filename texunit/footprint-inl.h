@@ -195,12 +195,12 @@ HWY_INLINE Lod quantise(Lod lod) {
     return carry({lod.level, hn::Mul(round_small(hn::Mul(lod.fraction, hn::Set(d, 256.0f))), hn::Set(d, 1.0f / 256))});
 }
 
-inline constexpr float kMostLambda = 150.0f;  ///< beyond what floats can be long
+inline constexpr float kBoundBeyondAllLevels = 150.0f;  ///< levels; there are 16 at most
 
-/// What turns lambda into levels, the same for all lanes. Bounds that the levels there are impose anyway do not count as such.
+/// What turns lambda into levels, the same for all lanes. Bounds that store_levels() and magnifies() would not notice are none.
 struct LodRules {
     LodValue bias, least, most;
-    bool biased, bounded, quantised;
+    bool biased, has_bounds, quantised;
     MipMode mip;
     int32_t last_level;
 };
@@ -209,7 +209,7 @@ HWY_INLINE LodRules lod_rules(const LevelTable& table, const SamplerState& sampl
             split_lod(sampler.min_lod),
             split_lod(sampler.max_lod),
             sampler.lod_bias != 0.0f,
-            sampler.min_lod > 0.0f || !(sampler.max_lod >= kMostLambda),
+            sampler.min_lod > 0.0f || !(sampler.max_lod >= kBoundBeyondAllLevels),
             sampler.precision == Precision::Gpu,
             sampler.mip,
             table.levels - 1};
@@ -218,7 +218,7 @@ HWY_INLINE LodRules lod_rules(const LevelTable& table, const SamplerState& sampl
 /// lambda + bias, clamped to [min_lod, max_lod] (Vulkan "Level-of-Detail Operation"; D3D11.3 7.18.11: the lower bound wins).
 HWY_INLINE Lod bound_lod(const LodRules& rules, Lod lod) {
     if (rules.biased) lod = add(lod, rules.bias);
-    if (rules.bounded) {
+    if (rules.has_bounds) {
         const Lod least = spread(rules.least), most = spread(rules.most);
         lod = select(less(most, lod), most, lod);
         lod = select(less(lod, least), least, lod);
@@ -284,9 +284,10 @@ HWY_INLINE void select_levels(const LevelTable& table, const SamplerState& sampl
     choice.mixes = false;
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
         ScaledJacobian j = texel_jacobian(at, i, width, height);
-        // Where squares neither over- nor underflow, scaling by powers of two would change no bit. What is not a number is not moderate.
+        // Where squares of squares neither over- nor underflow, scaling by powers of two would change no bit. What is not a number is not
+        // moderate.
         const auto both2 = hn::Add(squared_length(j.sx, j.tx), squared_length(j.sy, j.ty));
-        const auto moderate = hn::And(both2 >= hn::Set(d, 0x1p-60f), both2 <= hn::Set(d, 0x1p60f));
+        const auto moderate = hn::And(both2 >= hn::Set(d, 0x1p-20f), both2 <= hn::Set(d, 0x1p40f));
         if (HWY_UNLIKELY(!hn::AllTrue(d, moderate))) j = scale_jacobian(at, i, width, height);
         const auto longer2 = exact ? largest_singular_value(j).squared : hn::Max(squared_length(j.sx, j.tx), squared_length(j.sy, j.ty));
         const Lod lod = bound_lod(rules, lod_of_squared(longer2, j.exponent));

@@ -16,12 +16,12 @@ namespace rawtexel::texunit {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Whether plain loads, put together, beat the instruction for gathers: that takes AMD's processors twice as long, and Intel's, since their
-/// microcode guards it, no less.
+/// Whether plain loads, put together, serve better than the instruction for gathers, which takes AMD's Zen 4 twice as long
+/// (docs/performance.md), and Intel's processors longer since their microcode guards it (CVE-2022-40982).
 constexpr bool gathers_by_loads(size_t lanes) { return (HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2) && lanes >= 8; }
 
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX2
-/// Words base[at[k]] for k = 0 .. n - 1, n = 4, 8 or 16.
+/// Words base[at[k]] for k = 0 .. n - 1, n a power of two up to 16.
 template <size_t n, class T>
 HWY_INLINE auto load_words(const T* base, const int32_t* at) {
     const hn::CappedTag<T, n> d;
@@ -32,9 +32,10 @@ HWY_INLINE auto load_words(const T* base, const int32_t* at) {
     }
 }
 
-/// Rows of a transposition: of lanes r, r + 4, r + 8 … the records base[at[lane]] ….
+/// A row of a transposition, `rows` times four words: the records at base[at[0]], base[at[4]], base[at[8]] …, padded to four words.
 template <int words, size_t rows, class T>
 HWY_INLINE auto load_records(const T* base, const int32_t* at) {
+    static_assert(words == 3 || words == 4);
     if constexpr (rows == 1) {
         const hn::CappedTag<T, 4> d;
         if constexpr (words == 4) return hn::LoadU(d, base + uint32_t(*at));

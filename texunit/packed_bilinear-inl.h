@@ -68,24 +68,33 @@ HWY_NOINLINE void filter_packed_window(Texture& texture, const TexelWindow& wind
 /// The most registers of a window that take less time than reading the taps one by one.
 inline constexpr int kBilinearWindowRegisters = 2;
 
+/// Filters taps that fit into a window; false where they do not.
+template <StorageClass storage>
+HWY_INLINE bool filter_bilinear_window(Texture& texture, const TapWave<2>& taps, WaveColor& out) {
+    if constexpr (has_windows(storage)) {
+        TexelWindow window;
+        if (taps.slice != nullptr || !find_window(texture, *taps.level, taps.x, 2, taps.y, 2, kBilinearWindowRegisters, window))
+            return false;
+        with_fields(texture.texel_layout().fields, [&](auto constant) HWY_ATTR {
+            constexpr PackedFields kFields = decltype(constant)::value;
+            static_assert(kBilinearWindowRegisters == 2);
+            if (window.registers == 1) return filter_packed_window<kFields, 1>(texture, window, taps, out);
+            filter_packed_window<kFields, 2>(texture, window, taps, out);
+        });
+        return true;
+    }
+    return false;
+}
+
 /// Ensures, gathers and filters taps of which none lies beyond an edge.
 HWY_NOINLINE inline void filter_packed_bilinear(Texture& texture, const TapWave<2>& taps, WaveColor& out) {
-    const PackedFields fields = texture.texel_layout().fields;
-    if constexpr (has_windows(StorageClass::Packed32)) {
-        TexelWindow window;
-        if (taps.slice == nullptr && find_window(*taps.level, taps.x, 2, taps.y, 2, kBilinearWindowRegisters, window)) {
-            with_fields(fields, [&](auto constant) HWY_ATTR {
-                constexpr PackedFields kFields = decltype(constant)::value;
-                if (window.registers == 1) return filter_packed_window<kFields, 1>(texture, window, taps, out);
-                filter_packed_window<kFields, 2>(texture, window, taps, out);
-            });
-            return;
-        }
-    }
+    constexpr StorageClass kStorage = StorageClass::Packed32;
+    if (filter_bilinear_window<kStorage>(texture, taps, out)) return;
     WaveInt index[4];
-    tap_indices<StorageClass::Packed32>(texture.levels(), taps, index);
+    tap_indices<kStorage>(texture.levels(), taps, index);
     ensure(texture, *taps.level, index);
-    with_fields(fields, [&](auto constant) HWY_ATTR { filter_packed_taps<decltype(constant)::value>(texture, index, taps, out); });
+    with_fields(texture.texel_layout().fields,
+                [&](auto constant) HWY_ATTR { filter_packed_taps<decltype(constant)::value>(texture, index, taps, out); });
 }
 
 }  // namespace HWY_NAMESPACE

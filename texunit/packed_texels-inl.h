@@ -6,6 +6,8 @@
 
 #include <hwy/highway.h>
 
+#include <type_traits>
+
 // Included once per instruction set (highway's guard for -inl.h files).
 #if defined(RAWTEXEL_TEXUNIT_PACKED_TEXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RAWTEXEL_TEXUNIT_PACKED_TEXELS_INL_H_
@@ -67,18 +69,18 @@ HWY_INLINE void decode_srgb8(const Srgb8Tables& table, WordVec word, FloatVec& r
 #endif
 }
 
-/// The stored number of channel c, of whatever fields: a numerator, or what the format's table says.
-HWY_INLINE FloatVec field_number(const TexelLayout& layout, int c, WordVec word) {
+/// The stored number of channel c, of whatever fields, at bit `shift` of the words: a numerator, or what the format's table says.
+HWY_INLINE FloatVec field_number(const TexelLayout& layout, int c, int shift, WordVec word) {
     const FloatTag d;
     const IntTag di;
     const hn::RebindToUnsigned<IntTag> du;
-    const auto field = hn::BitCast(di, hn::And(hn::ShiftRightSame(word, layout.shift[c]), hn::Set(du, layout.mask[c])));
+    const auto field = hn::BitCast(di, hn::And(hn::ShiftRightSame(word, shift), hn::Set(du, layout.mask[c])));
     if (layout.table[c] != nullptr) return gather_from(layout.table[c], field);
     if (!layout.is_signed) return hn::ConvertTo(d, field);
     // Flipping the sign bit and subtracting it extends the sign; two codes mean -1 (D3D11.3 3.2.3.4).
     const auto sign = hn::Set(di, int32_t((layout.mask[c] + 1) >> 1));
     const auto value = hn::Sub(hn::Xor(field, sign), sign);
-    return hn::ConvertTo(d, hn::Max(value, hn::Sub(hn::Set(di, 1), sign)));
+    return hn::ConvertTo(d, hn::Max(value, hn::Set(di, -layout.denominator[c])));
 }
 
 /// Unpacks texels of one layout, whose fields are known where they are not Any.
@@ -90,7 +92,7 @@ class PackedDecoder {
     /// The stored numbers of all channels: numerators, or linear values of sRGB.
     HWY_INLINE void numbers(WordVec word, FloatVec (&number)[4]) const {
         if constexpr (fields == PackedFields::Any) {
-            for (int c = 0; c < 4; ++c) number[c] = field_number(layout_, c, word);
+            for (int c = 0; c < 4; ++c) number[c] = field_number(layout_, c, layout_.shift[c], word);
             return;
         }
         if constexpr (fields == PackedFields::Srgb8) {

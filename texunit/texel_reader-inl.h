@@ -76,19 +76,10 @@ class TexelReader {
   private:
     /// The field of channel c at bit `shift` of `word`, or its value where a table holds that.
     HWY_INLINE V field(int c, int shift, hn::Vec<hn::RebindToUnsigned<IntTag>> word) const {
-        const FloatTag d;
-        const IntTag di;
+        if constexpr (!plain) return layout_.mask[c] == 0 ? hn::Zero(FloatTag()) : field_number(layout_, c, shift, word);
         const hn::RebindToUnsigned<IntTag> du;
-        const uint32_t mask = layout_.mask[c];
-        if (!plain && mask == 0) return hn::Zero(d);
-        const auto bits = hn::BitCast(di, hn::And(hn::ShiftRightSame(word, shift), hn::Set(du, mask)));
-        if constexpr (plain) return hn::ConvertTo(d, bits);
-        if (layout_.table[c] != nullptr) return gather_from(layout_.table[c], bits);
-        if (!layout_.is_signed) return hn::ConvertTo(d, bits);
-        // Flipping the sign bit and subtracting it extends the sign. Two codes mean -1 (D3D11.3 3.2.3.4).
-        const auto sign = hn::Set(di, int32_t((mask + 1) >> 1));
-        const auto extended = hn::Sub(hn::Xor(bits, sign), sign);
-        return hn::ConvertTo(d, hn::Max(extended, hn::Set(di, -layout_.denominator[c])));
+        const auto bits = hn::And(hn::ShiftRightSame(word, shift), hn::Set(du, layout_.mask[c]));
+        return hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), bits));
     }
 
     const TexelLayout& layout_;

@@ -1,7 +1,9 @@
-// Where magnification lets all taps of a wave fall on a few texels, those are read and unpacked once, and taps picked among them.
+// Where all taps of a wave fall on a few texels, as under magnification, those are read and unpacked once, and taps picked among them.
 #include "texunit/texel_reader-inl.h"
 
 #include <hwy/highway.h>
+
+#include <type_traits>
 
 // Included once per instruction set (highway's guard for -inl.h files).
 #if defined(RAWTEXEL_TEXUNIT_TEXEL_WINDOW_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -28,7 +30,8 @@ struct TexelWindow {
     int32_t x, y;  ///< of its first texel
     int32_t last_x, last_y;
     int log2_columns;
-    int registers;  ///< 1, 2 or 4
+    int registers;     ///< 1, 2 or 4
+    bool whole_level;  ///< all blocks of the level are ready
 };
 
 /// The least and the largest of `count` waves.
@@ -46,16 +49,18 @@ HWY_INLINE void find_range(const WaveInt* waves, int count, int32_t& least, int3
     most = hn::GetLane(hn::MaxOfLanes(d, high));
 }
 
-/// False where the taps lie farther apart than `registers` reach, or in several levels.
-HWY_INLINE bool find_window(const WaveInt& level, const WaveInt* x, int columns, const WaveInt* y, int rows, int registers,
-                            TexelWindow& window) {
+/// Finds the window of the taps; false where more than `most_registers` would have to hold it, or where they lie in several levels. Where
+/// blocks of the level are missing, windows are of 4x4 texels at most, so that they make no block that lies between their taps' blocks.
+HWY_INLINE bool find_window(const Texture& texture, const WaveInt& level, const WaveInt* x, int columns, const WaveInt* y, int rows,
+                            int most_registers, TexelWindow& window) {
+    window.whole_level = (texture.ready_levels() >> level[0] & 1) != 0;
     find_range(x, columns, window.x, window.last_x);
     const int width = window.last_x - window.x + 1;
-    if (width > kRegisterTexels) return false;
+    if (width > (window.whole_level ? kRegisterTexels : 4)) return false;
     window.log2_columns = width <= 4 ? 2 : width <= 8 ? 3 : 4;
     find_range(y, rows, window.y, window.last_y);
     const int height = window.last_y - window.y + 1;
-    if (height > registers * kRegisterTexels >> window.log2_columns) return false;
+    if (height > (window.whole_level ? most_registers * kRegisterTexels >> window.log2_columns : 4)) return false;
     const int texels = height << window.log2_columns;
     window.registers = texels <= kRegisterTexels ? 1 : texels <= 2 * kRegisterTexels ? 2 : 4;
     int32_t finest, coarsest;
@@ -63,14 +68,18 @@ HWY_INLINE bool find_window(const WaveInt& level, const WaveInt* x, int columns,
     return finest == coarsest;
 }
 
-/// Whether the blocks of these texels are ready: those of its corners, where a window of 4x4 lies in no others.
-HWY_INLINE bool corners_are_ready(const Texture& texture, const WaveInt& index) {
+/// Of a window of 4x4 texels, which lies in the blocks of its corners and no others: makes those blocks that are not ready.
+HWY_NOINLINE inline void ensure_corners(Texture& texture, IntVec index) {
+    const IntTag d;
+    WaveInt indices[1];
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) hn::Store(index, d, indices[0].lane + i);
+    bool ready = true;
     for (const size_t corner : {0, 3, 12, 15}) {
-        const int32_t texel = index.lane[corner];
+        const int32_t texel = indices[0].lane[corner];
         const int block = texel >> kLog2TexelsPerBlock & (BlockStates::kGroup - 1);
-        if ((texture.ready_blocks(texel >> kLog2TexelsPerGroup) >> block & 1) == 0) return false;
+        ready = ready && (texture.ready_blocks(texel >> kLog2TexelsPerGroup) >> block & 1) != 0;
     }
-    return true;
+    if (!ready) ensure_blocks(texture, indices);
 }
 
 /// Makes sure that the window's texels may be read, and gives their indices, register by register; beyond its last column and row those
@@ -81,7 +90,6 @@ HWY_INLINE void ensure_window(Texture& texture, const TexelWindow& window, const
     const LevelTable& table = texture.levels();
     const auto of_level = hn::Load(d, level.lane);
     const auto offset = look_up_level(d, table.offset, of_level), row_stride = look_up_level(d, table.row_stride, of_level);
-    WaveInt indices[(registers + 1) / 2];
     for (int r = 0; r < registers; ++r) {
         const auto place = hn::Iota(d, r * kRegisterTexels);
         const auto column = hn::And(place, hn::Set(d, (1 << window.log2_columns) - 1)),
@@ -89,12 +97,8 @@ HWY_INLINE void ensure_window(Texture& texture, const TexelWindow& window, const
         const auto x = hn::Min(hn::Add(hn::Set(d, window.x), column), hn::Set(d, window.last_x));
         const auto y = hn::Min(hn::Add(hn::Set(d, window.y), row), hn::Set(d, window.last_y));
         index[r] = hn::Add(hn::Add(offset, column_offset_v<storage>(x)), row_offset_v<storage>(y, row_stride));
-        for (size_t i = 0; i < kWaveLanes; i += kRegisterTexels)
-            if (registers == 1 || i / kRegisterTexels == size_t(r % 2)) hn::Store(index[r], d, indices[r / 2].lane + i);
     }
-    if ((texture.ready_levels() >> level[0] & 1) != 0) return;
-    if (registers == 1 && corners_are_ready(texture, indices[0])) return;
-    ensure_blocks(texture, indices);
+    if (!window.whole_level) ensure_corners(texture, index[0]);
 }
 
 /// Where taps at (x, y) are in the window.
@@ -104,10 +108,10 @@ HWY_INLINE IntVec in_window(const TexelWindow& window, IntVec x, IntVec y) {
     return hn::Add(column, hn::ShiftLeftSame(row, window.log2_columns));
 }
 
+#if HWY_TARGET == HWY_AVX3
 /// One channel's values at `at`, of a window's registers.
 template <int registers>
 HWY_INLINE FloatVec pick(const FloatVec (&texel)[registers], IntVec at) {
-#if HWY_TARGET == HWY_AVX3
     if constexpr (registers == 1) {
         return hn::TableLookupLanes(texel[0], hn::IndicesFromVec(FloatTag(), at));
     } else {
@@ -116,16 +120,16 @@ HWY_INLINE FloatVec pick(const FloatVec (&texel)[registers], IntVec at) {
         };
         if constexpr (registers == 2) return of_two(0);
         if constexpr (registers == 4) {
-            const hn::RebindToSigned<FloatTag> d;
-            const auto upper = hn::TestBit(at, hn::Set(d, 2 * kRegisterTexels));
+            const auto upper = hn::TestBit(at, hn::Set(IntTag(), 2 * kRegisterTexels));
             return hn::IfThenElse(hn::RebindMask(FloatTag(), upper), of_two(2), of_two(0));
         }
     }
-#else
-    (void)at;
-    return texel[0];  // has_windows()
-#endif
 }
+#else
+/// Other sets have no windows (has_windows).
+template <int registers>
+FloatVec pick(const FloatVec (&texel)[registers], IntVec at) = delete;
+#endif
 
 /// Calls `act` with the number of a window's registers as a constant of the type std::integral_constant.
 template <class Act>

@@ -237,7 +237,8 @@ template <StorageClass storage>
 HWY_INLINE bool filter_window(Texture& texture, const WideTaps& taps, WaveColor& out) {
     if (taps.leaves() || taps.cube || taps.volume || taps.slice != nullptr) return false;
     TexelWindow window;
-    if (!find_window(*taps.level, taps.x.texel, taps.x.count, taps.y.texel, taps.y.count, kMostWindowRegisters, window)) return false;
+    const AxisTaps &x = taps.x, &y = taps.y;
+    if (!find_window(texture, *taps.level, x.texel, x.count, y.texel, y.count, kMostWindowRegisters, window)) return false;
     with_registers(window, [&](auto registers) HWY_ATTR {
         constexpr int kRegisters = decltype(registers)::value;
         if (is_plain(texture.texel_layout())) {

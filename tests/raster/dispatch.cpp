@@ -18,7 +18,7 @@ void draw_tile_here(const Frame& frame, int tile_x, int tile_y, const TileSample
 
 void interpolate_wave_here(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y, uint32_t mask,
                            BarycentricWave& out) {
-    LatestPlanes latest;
+    LatestPlanes latest(frame);
     barycentric_wave(frame, setup_index, offset, x, y, mask, latest, out);
 }
 

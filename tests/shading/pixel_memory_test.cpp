@@ -1,9 +1,14 @@
 #include "shading/image.h"
 
+#include "shading/executor.h"
+#include "shading/render.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <new>
 #include <thread>
 #include <utility>
@@ -27,6 +32,9 @@ TEST(PixelMemory, ImagesStartAtZeroEvenWhereAnotherOneWas) {
 }
 
 TEST(PixelMemory, TheBlockGivenBackLastIsUsedAgainForItsSizeAlone) {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "sanitizers get all memory from the heap";
+#endif
     const float* first = nullptr;
     {
         const Image image = Image::unwritten(kLargeSide, kLargeSide, 3);
@@ -70,6 +78,23 @@ TEST(PixelMemory, ThreadsNeverShareABlock) {
         });
     }
     for (std::thread& thread : threads) thread.join();
+}
+
+TEST(PixelMemory, FramesWriteEveryPixelOfMemoryThatHeldAnything) {
+    const std::unique_ptr<Executor> executor = make_executor(ExecutorKind::Threads, 2);
+    for (const Crop crop : {Crop{}, Crop{3, 5, 1190, 1001}}) {
+        RenderOptions options;
+        options.width = 1201, options.height = 1013, options.crop = crop;
+        options.background = glm::vec3(0.25f);
+        const int width = crop.width > 0 ? crop.width : options.width, height = crop.width > 0 ? crop.height : options.height;
+        {
+            Image before = Image::unwritten(width, height, 3);
+            std::ranges::fill(before.values, std::numeric_limits<float>::quiet_NaN());
+        }
+        const RenderResult result = render(Scene{}, Lighting{}, options, *executor);
+        ASSERT_EQ(result.radiance.values.size(), size_t(width) * size_t(height) * 3);
+        EXPECT_TRUE(std::ranges::all_of(result.radiance.values, [](float value) { return value == 0.25f; }));
+    }
 }
 
 }  // namespace

@@ -159,6 +159,60 @@ TEST_P(Footprints, AreTheSameBitsOnEveryInstructionSet) {
     }
 }
 
+TEST_P(Footprints, DoNotDependOnTheirNeighbours) {
+    const LevelTable table = make_levels(4096, 512);
+    choose_simd(GetParam());
+    std::mt19937 random(29);
+    for (const LodRule rule : {LodRule::D3d, LodRule::Exact}) {
+        const SamplerState sampler{.lod_rule = rule, .lod_bias = 26.0f};
+        for (int round = 0; round < 400; ++round) {
+            // All lanes alike, of any size, round or not.
+            std::uniform_real_distribution<float> element(-1, 1);
+            const float size = std::ldexp(1.0f, int(random() % 60) - 45);
+            WaveCoordinates alone{};
+            const float dudx = element(random) * size, dvdx = element(random) * size, dudy = element(random) * size,
+                        dvdy = round % 2 == 0 ? element(random) * size : dudx * (1 + 0x1p-20f * element(random));
+            for (int lane = 0; lane < kWaveLanes; ++lane)
+                alone.dudx[lane] = dudx, alone.dvdx[lane] = dvdx, alone.dudy[lane] = dudy, alone.dvdy[lane] = dvdy;
+            WaveFootprint expected;
+            measure_footprint(table, sampler, alone, expected);
+            for (const float neighbour : {0.0f, 1e30f, 1e-30f, std::numeric_limits<float>::quiet_NaN()}) {
+                WaveCoordinates mixed = alone;
+                for (int lane = 1; lane < kWaveLanes; lane += 2) mixed.dudx[lane] = neighbour;
+                WaveFootprint found;
+                measure_footprint(table, sampler, mixed, found);
+                for (int lane = 0; lane < kWaveLanes; lane += 2)
+                    ASSERT_EQ(found.lod[lane], expected.lod[lane]) << "size " << size << ", beside " << neighbour << ", lane " << lane;
+            }
+        }
+    }
+    choose_simd(Simd::Auto);
+}
+
+TEST_P(Footprints, NeedNoBoundsBeyondTheLevelsThereAre) {
+    choose_simd(GetParam());
+    for (const auto& [width, height] : {std::pair(4096, 512), {1, 1}, {300, 7}}) {
+        const LevelTable table = make_levels(width, height);
+        const std::vector<Lookup> lookups = random_lookups(table, 2048, 31);
+        for (const Precision precision : {Precision::Exact, Precision::Gpu}) {
+            for (const float bias : {0.0f, -3.3f, 1000.0f, -1000.0f}) {
+                SamplerState loose{.precision = precision, .lod_bias = bias}, tight = loose;
+                loose.min_lod = 0, loose.max_lod = 1000;
+                tight.min_lod = 0, tight.max_lod = 149;  // bounds that are taken seriously
+                for (size_t first = 0; first < lookups.size(); first += kWaveLanes) {
+                    WaveCoordinates at = gather(lookups, first);
+                    at.dudx[3] = std::numeric_limits<float>::quiet_NaN();
+                    WaveFootprint of_loose, of_tight;
+                    measure_footprint(table, loose, at, of_loose);
+                    measure_footprint(table, tight, at, of_tight);
+                    ASSERT_TRUE(same_bits(of_loose, of_tight)) << "bias " << bias << ' ' << describe(lookups[first]);
+                }
+            }
+        }
+    }
+    choose_simd(Simd::Auto);
+}
+
 TEST_P(Footprints, OfRatioOneTakeOneProbeWhateverTheAngle) {
     const LevelTable table = make_levels(1024, 1024);
     std::vector<Lookup> lookups;

@@ -90,6 +90,17 @@ TEST_P(Gathers, ReadTheWordsOfEveryLanesRecordAndNoneBeyond) {
     }
 }
 
+TEST(PackedFieldsOf, FormatsAreKnownWhereTheirTexelsAreFourBytes) {
+    for (const FormatInfo& about : all_formats()) {
+        const bool rgba8 = about.format == Format::RGBA8Unorm || about.format == Format::BC7Unorm;
+        const bool srgb8 = about.format == Format::RGBA8Srgb || about.format == Format::BC7Srgb;
+        EXPECT_EQ(layout(about.format).fields, rgba8   ? PackedFields::Unorm8
+                                               : srgb8 ? PackedFields::Srgb8
+                                                       : PackedFields::Any)
+            << about.name;
+    }
+}
+
 TEST_P(Gathers, DecodeEveryCodeOfEveryChannelToTheTablesFloat) {
     const TexelLayout& srgb = layout(Format::RGBA8Srgb);
     ASSERT_EQ(srgb.fields, PackedFields::Srgb8);
@@ -109,27 +120,28 @@ TEST_P(Gathers, DecodeEveryCodeOfEveryChannelToTheTablesFloat) {
 
 TEST_P(Gathers, DecodeAllPackedFormatsAsTheirLayoutsSay) {
     std::mt19937 random(12);
-    for (const FormatInfo& about : all_formats()) {
-        const TexelLayout& of = layout(about.format);
-        if (of.storage != StorageClass::Packed32) continue;
-        SCOPED_TRACE(about.name);
-        for (int round = 0; round < 200; ++round) {
-            Wave<uint32_t> word{};
-            for (int lane = 0; lane < kWaveLanes; ++lane)
-                for (int c = 0; c < 4; ++c) {
-                    // Fields that a decoder produces.
-                    const auto number = uint32_t(random());
-                    const uint32_t field = of.is_signed ? number : number % (uint32_t(of.denominator[c]) + 1);
-                    word[lane] |= (field & of.mask[c]) << of.shift[c];
+    for (const FormatInfo& about : all_formats())
+        for (const BcRounding rounding : {BcRounding::Exact, BcRounding::Ideal8}) {
+            const TexelLayout& of = layout(about.format, rounding);
+            if (of.storage != StorageClass::Packed32) continue;
+            SCOPED_TRACE(about.name);
+            for (int round = 0; round < 200; ++round) {
+                Wave<uint32_t> word{};
+                for (int lane = 0; lane < kWaveLanes; ++lane)
+                    for (int c = 0; c < 4; ++c) {
+                        // Fields that a decoder produces.
+                        const auto number = uint32_t(random());
+                        const uint32_t field = of.is_signed ? number : number % (uint32_t(of.denominator[c]) + 1);
+                        word[lane] |= (field & of.mask[c]) << of.shift[c];
+                    }
+                WaveFloat out[4];
+                HWY_DYNAMIC_DISPATCH(decode_here)(of, word, out);
+                for (int lane = 0; lane < kWaveLanes; ++lane) {
+                    const std::array<float, 4> texel = load_texel(of, reinterpret_cast<const std::byte*>(&word[lane]));
+                    for (size_t c = 0; c < 4; ++c) ASSERT_EQ(out[c][lane], texel[c]) << lane << ' ' << c;
                 }
-            WaveFloat out[4];
-            HWY_DYNAMIC_DISPATCH(decode_here)(of, word, out);
-            for (int lane = 0; lane < kWaveLanes; ++lane) {
-                const std::array<float, 4> texel = load_texel(of, reinterpret_cast<const std::byte*>(&word[lane]));
-                for (size_t c = 0; c < 4; ++c) ASSERT_EQ(out[c][lane], texel[c]) << lane << ' ' << c;
             }
         }
-    }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include <cstring>
 #include <random>
+#include <utility>
 
 namespace rawtexel::texunit {
 namespace {
@@ -55,6 +56,56 @@ TEST(TexelWindow, GivesTheBitsOfOneLaneAfterTheOther) {
                                     << to_string(set) << ' ' << to_string(kernel) << " wrap " << int(wrap) << " format " << int(format)
                                     << ", pixels " << texels << " texels apart, lane " << lane << " channel " << c;
                         }
+                        ++waves;
+                    }
+                    choose_simd(Simd::Auto);
+                }
+            }
+        }
+    }
+    std::printf("%d waves\n", waves);
+}
+
+/// A wave of pixels along the axes, `across` and `down` texels apart, whose first one is at texel (x, y).
+WaveCoordinates aimed_wave(float x, float y, float across, float down, int extent) {
+    WaveCoordinates at{};
+    const float texel = 1.0f / float(extent);
+    for (int lane = 0; lane < kWaveLanes; ++lane) {
+        at.u[lane] = (x + across * float(lane % kWaveWidth)) * texel;
+        at.v[lane] = (y + down * float(lane / kWaveWidth)) * texel;
+        at.dudx[lane] = across * texel, at.dvdy[lane] = down * texel;
+    }
+    return at;
+}
+
+// Windows of every shape at every phase of the blocks, each of a texture that nobody has read yet: what is not made is seen.
+TEST(TexelWindow, MakesTheBlocksThatItReads) {
+    int waves = 0;
+    for (const Format format : {Format::RGBA8Srgb, Format::BC1RgbUnorm}) {
+        for (const Kernel& kernel : {Kernel::Bilinear, Kernel::BSpline}) {
+            for (int phase = 0; phase < 16; ++phase) {
+                // Up to 4x4, 8x2, 16x1, 8x4, 16x2 and more texels.
+                for (const auto& [across, down] :
+                     {std::pair(0.2f, 0.2f), {0.7f, 0.1f}, {1.6f, 0.0f}, {0.7f, 0.6f}, {1.6f, 0.2f}, {0.9f, 0.9f}}) {
+                    const SamplerState sampler{Wrap::Repeat, Wrap::Repeat, kernel, kernel, MipMode::None};
+                    const WaveCoordinates at = aimed_wave(17.6f + float(phase % 4), 21.6f + float(phase / 4), across, down, 64);
+                    WaveColor scalar{};
+                    for (const Simd set : available_simd()) {
+                        const auto texture = std::make_unique<Texture>("hashed", make_hashed_pyramid(format, 64, 64));
+                        WaveColor first{}, again{};
+                        ASSERT_TRUE(choose_simd(set));
+                        sample_wave(*texture, sampler, at, kWaveFull, first);
+                        if (set == available_simd().front()) scalar = first;
+                        // Once the level is there, windows may be larger.
+                        texture->make_level(0);
+                        sample_wave(*texture, sampler, at, kWaveFull, again);
+                        for (int lane = 0; lane < kWaveLanes; ++lane)
+                            for (int c = 0; c < 4; ++c) {
+                                ASSERT_EQ(first.channel[c][lane], scalar.channel[c][lane])
+                                    << to_string(set) << ' ' << to_string(kernel) << ' ' << across << " x " << down << ", phase " << phase;
+                                ASSERT_EQ(again.channel[c][lane], scalar.channel[c][lane])
+                                    << to_string(set) << ' ' << to_string(kernel) << ' ' << across << " x " << down << ", phase " << phase;
+                            }
                         ++waves;
                     }
                     choose_simd(Simd::Auto);
