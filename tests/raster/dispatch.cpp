@@ -17,8 +17,7 @@ void draw_tile_here(const Frame& frame, int tile_x, int tile_y, const TileSample
 }
 
 void interpolate_wave_here(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y, uint32_t mask,
-                           BarycentricWave& out) {
-    LatestPlanes latest(frame);
+                           LatestPlanes& latest, BarycentricWave& out) {
     barycentric_wave(frame, setup_index, offset, x, y, mask, latest, out);
 }
 
@@ -41,8 +40,8 @@ void draw_tile(const Frame& frame, int tile_x, int tile_y, const TileSamples& sa
 }
 
 void interpolate_wave(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y, uint32_t mask,
-                      BarycentricWave& out) {
-    HWY_DYNAMIC_DISPATCH(interpolate_wave_here)(frame, setup_index, offset, x, y, mask, out);
+                      LatestPlanes& latest, BarycentricWave& out) {
+    HWY_DYNAMIC_DISPATCH(interpolate_wave_here)(frame, setup_index, offset, x, y, mask, latest, out);
 }
 
 std::vector<int64_t> instruction_sets() {

@@ -15,7 +15,7 @@ using CoveragePolicy = std::function<uint32_t(const CandidateWave&)>;
 
 void draw_tile(const Frame& frame, int tile_x, int tile_y, const TileSamples& samples, const CoveragePolicy& coverage, TileVisibility& out);
 void interpolate_wave(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y, uint32_t mask,
-                      BarycentricWave& out);
+                      LatestPlanes& latest, BarycentricWave& out);
 
 /// Instruction sets built and supported here, scalar included.
 std::vector<int64_t> instruction_sets();

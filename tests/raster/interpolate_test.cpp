@@ -260,6 +260,7 @@ TEST(Interpolation, OfAWaveEqualsTheScalarBitForBitOnEveryInstructionSet) {
     const MixedScene scene(6, 200);
     const Frame frame(square_frame(kSize), scene.draws);
     ASSERT_GT(frame.counts().clipped, 0u);
+    LatestPlanes latest(frame);
     std::mt19937 random(7);
     for (int round = 0; round < 400; ++round) {
         uint32_t setup_index[32];
@@ -279,7 +280,7 @@ TEST(Interpolation, OfAWaveEqualsTheScalarBitForBitOnEveryInstructionSet) {
             const UseInstructionSet use(set);
             BarycentricWave got;
             std::memset(&got, 0xFF, sizeof(got));
-            interpolate_wave(frame, setup_index, offset, x, y, mask, got);
+            interpolate_wave(frame, setup_index, offset, x, y, mask, latest, got);
             ASSERT_TRUE(same_bits(got, expected)) << name_of(set) << ", round " << round << ", mask " << mask;
         }
     }
