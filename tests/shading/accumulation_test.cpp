@@ -105,8 +105,12 @@ TEST(SampleTree, ScaledSumsAreTheMeanToTheBit) {
         if (!scaled) continue;
         std::vector<float> mean(kWidth);
         tree.mean(0, mean);
+        const std::vector<double> sum = sum_of(tree);
         ASSERT_EQ(scaled->sum.size(), size_t(kWidth));
-        for (size_t i = 0; i < mean.size(); ++i) ASSERT_EQ(scaled->sum[i] * scaled->share, mean[i]) << i;
+        for (size_t i = 0; i < mean.size(); ++i) {
+            ASSERT_EQ(mean[i], float(sum[i] / double(count))) << i;
+            ASSERT_EQ(scaled->sum[i] * scaled->share, mean[i]) << i;
+        }
     }
 }
 
