@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <span>
 
 namespace rawtexel::cli {
 namespace {
@@ -102,7 +103,7 @@ HardwareAgreement::Footprint measure_footprint(const Suite& suite, const CaseGro
 /// The texel of a nearest lookup, decoded by a rule.
 std::array<float, 4> decoded(const SuiteTexture& texture, const Expectation& e, texunit::BcRounding rounding) {
     const auto unit = size_t(texunit::info(texture.format()).bytes_per_block);
-    const int columns = texture.shape().width / 4;
+    const int columns = (texture.shape().width + 3) / 4;
     alignas(16) std::array<std::byte, 16 * 16> texels{};
     decode_block(texture.format(), texture.bytes().data() + unit * size_t(e.expected.x / 4 + columns * (e.expected.y / 4)), texels.data(),
                  rounding);
@@ -135,7 +136,9 @@ std::string print(const char* form, double value) {
 }
 
 bool is_compressed(const Suite& suite, const CaseGroup& group) {
-    return texunit::info(suite.textures[suite.cases[group.first].texture].format()).block_compressed;
+    const auto cases = std::span(suite.cases).subspan(group.first, group.count);
+    return std::ranges::all_of(cases, [&](const CaseRecord& record) { return record.texture == cases[0].texture; }) &&
+           texunit::info(suite.textures[cases[0].texture].format()).block_compressed;
 }
 
 std::string agreement_text(const HardwareAgreement& a) {

@@ -2,6 +2,7 @@
 
 #include "cli/json_text.h"
 #include "cli/vectors/expectation.h"
+#include "cli/vectors/hardware_report.h"
 #include "cli/version.h"
 #include "scenes/image_io.h"
 #include "scenes/output_file.h"
@@ -13,6 +14,8 @@
 #include <bit>
 #include <cstring>
 #include <filesystem>
+#include <limits>
+#include <type_traits>
 
 namespace rawtexel::cli {
 namespace {
@@ -108,8 +111,13 @@ void write_records(const std::string& path, const std::vector<T>& records) {
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) { throw scenes::InputError(path + ": " + what); }
 
+constexpr uint64_t kMostFileBytes = uint64_t{4} << 30;  ///< ten times the lookups of a large scene
+
 template <class T>
 std::vector<T> read_records(const std::string& path) {
+    std::error_code unreadable;  // read_file says why
+    if (const uint64_t size = std::filesystem::file_size(path, unreadable); !unreadable && size > kMostFileBytes)
+        fail(path, std::to_string(size) + " bytes are more than a suite's file may have (" + std::to_string(kMostFileBytes) + ")");
     const std::vector<std::byte> bytes = scenes::read_file(path);
     if (bytes.size() % sizeof(T) != 0)
         fail(path, std::to_string(bytes.size()) + " bytes are no whole number of records (" + std::to_string(sizeof(T)) + " bytes each)");
@@ -157,6 +165,12 @@ void check_case(const std::string& path, const Suite& suite, const CaseRecord& r
     const bool looks_up = record.op == PortOp::Sample || record.op == PortOp::Draw || record.op == PortOp::Mean ||
                           record.op == PortOp::Shade || record.op == PortOp::BlockTexel;
     if (looks_up && record.texture >= suite.textures.size()) refuse("a texture that there is not");
+    if (suite.name == kHardwareSuite && !looks_up) refuse("no lookup, which is all that a device's texture unit is asked for");
+    if (suite.name == kHardwareSuite && texunit::info(suite.textures[record.texture].format()).block_compressed) {
+        const Shape& shape = suite.textures[record.texture].shape();
+        const auto& texel = suite.expected[index].expected;
+        if (texel.x < 0 || texel.x >= shape.width || texel.y < 0 || texel.y >= shape.height) refuse("expects a texel that there is not");
+    }
     if (record.minify > 9 || record.magnify > 9 || record.estimator > 3 || record.mip > 2 || record.lod_rule > 1 || record.noise > 4)
         refuse("a kernel, estimator, mip mode, rule or noise that there is not");
     const texunit::SamplerState sampler = sampler_of(record);
@@ -179,9 +193,23 @@ void check_case(const std::string& path, const Suite& suite, const CaseRecord& r
     }
 }
 
+/// Whether JSON's conversion would keep what `value` says.
+template <class T>
+bool holds(const nlohmann::json& value) {
+    if constexpr (std::is_same_v<T, std::string>) {
+        if (!value.is_string()) return false;
+        return std::ranges::none_of(value.get_ref<const std::string&>(), [](unsigned char c) { return c < 0x20 || c == 0x7F; });
+    } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+        return value.is_number_unsigned() && value.get<uint64_t>() <= uint64_t(std::numeric_limits<T>::max());
+    } else {
+        return true;
+    }
+}
+
 template <class T>
 T member(const std::string& path, const nlohmann::json& json, const char* name) {
     try {
+        if (!holds<T>(json.at(name))) fail(path, std::string("\"") + name + "\" is out of range or of another kind");
         return json.at(name).get<T>();
     } catch (const nlohmann::json::exception&) {
         fail(path, std::string("\"") + name + "\" is missing or of another kind");
@@ -233,16 +261,19 @@ Suite read_suite(const std::string& folder) {
     if (own_words > words.size()) fail(path, "fewer words than \"suite_words\"");
     suite.words.assign(words.begin(), words.begin() + std::ptrdiff_t(own_words));
     const auto named = member<nlohmann::json>(path, json, "textures");
+    if (!named.is_array()) fail(path, "\"textures\" is no list");
     if (named.size() != records.size()) fail(path, "as many textures as " + std::string(kTexturesFile) + " has are needed");
     for (size_t n = 0; n < records.size(); ++n)
         suite.textures.push_back(read_texture(path, member<std::string>(path, named[n], "name"), records[n], texels, words));
-    uint32_t next = 0;
+    uint64_t next = 0;
     const auto groups = member<nlohmann::json>(path, json, "groups");
+    if (!groups.is_array()) fail(path, "\"groups\" is no list");
     for (const auto& group : groups) {
         suite.groups.push_back({member<std::string>(path, group, "name"), member<std::string>(path, group, "about"),
                                 member<uint32_t>(path, group, "first"), member<uint32_t>(path, group, "count"),
                                 member<bool>(path, group, "exact")});
         if (suite.groups.back().first != next) fail(path, "groups that do not follow each other");
+        if (suite.groups.back().count == 0) fail(path, "a group without cases");
         next += suite.groups.back().count;
     }
     if (next != suite.cases.size()) fail(path, "groups that do not hold all cases");

@@ -296,6 +296,15 @@ TEST(Verdicts, NeedNoVulkanForOutputs) {
     EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
+/// Nothing where a copy of `path` grown to 64 GiB, which hold no data, is refused with `part`.
+std::string why_huge_is_read(const std::string& path, const std::vector<std::string>& command, const std::string& part) {
+    const uintmax_t size = std::filesystem::file_size(path);
+    std::filesystem::resize_file(path, uintmax_t{64} << 30);
+    const std::string why = why_not_failed(run(command), 3, part);
+    std::filesystem::resize_file(path, size);
+    return why;
+}
+
 TEST(VectorFiles, AreRefusedWhereTheyAreDamaged) {
     const TemporaryFolder folder;
     const std::string suite = folder / "suite";
@@ -348,8 +357,46 @@ TEST(VectorFiles, AreRefusedWhereTheyAreDamaged) {
     EXPECT_EQ(refused("cases.bin", set_index(3, 0), "case 0: an axis of no texels"), "");
     EXPECT_EQ(refused("cases.bin", set_index(3, std::numeric_limits<int32_t>::max()), "case 0: an axis of no texels or more than 2^24"),
               "");
+    // Numbers that would wrap, text that would be a line of its own.
+    EXPECT_EQ(refused("suite.json", replace("\"version\": 1", "\"version\": 4294967297"), "\"version\" is out of range"), "");
+    EXPECT_EQ(refused("suite.json", replace("\"version\": 1", "\"version\": 1.9"), "\"version\" is out of range"), "");
+    EXPECT_EQ(refused("suite.json", replace("\"suite\": \"lod", "\"suite\": \"l\\n"), "\"suite\" is out of range or of another kind"), "");
+    EXPECT_EQ(refused("suite.json", replace("\"first\": 0", "\"first\": -1"), "\"first\" is out of range"), "");
+    const auto regroup = [](const char* groups) {
+        return [=](std::string& text) {
+            auto json = nlohmann::json::parse(text);
+            json["groups"] = nlohmann::json::parse(groups);
+            text = json.dump();
+        };
+    };
+    EXPECT_EQ(refused("suite.json", regroup("{}"), "\"groups\" is no list"), "");
+    EXPECT_EQ(refused("suite.json", regroup(R"([{"name": "a", "about": "", "first": 0, "count": 0, "exact": true}])"), "without cases"),
+              "");
+    EXPECT_EQ(refused("suite.json", regroup(R"([{"name": "a", "about": "", "first": 0, "count": 4294967295, "exact": true},
+                                                {"name": "b", "about": "", "first": 4294967295, "count": 2, "exact": true}])"),
+                      "do not hold all cases"),
+              "");
+    // Files far larger than any suite's, of holes alone, are not read.
+    EXPECT_EQ(why_huge_is_read(suite + "/texels.bin", verify, "more than a suite's file may have"), "");
+    EXPECT_EQ(why_huge_is_read(answers, verify, "bytes of results"), "");
     std::filesystem::remove(suite + "/expected.bin");
     EXPECT_EQ(why_not_failed(run(verify), 3, "expected.bin"), "");
+}
+
+TEST(VectorFiles, OfHardwareExpectNoTexelThatABlockLacks) {
+    const TemporaryFolder folder;
+    const std::string suite = folder / "suite";
+    ASSERT_EQ(run({"vectors", "--suite", "hardware", "-o", suite}).code, 0);
+    const Suite whole = *cli::make_suite("hardware");
+    const std::string answers = folder.write("answers.bin", bytes_of(right_answers(whole)));
+    const std::vector<std::string> verify{"verify-shader", "--suite", suite, "--outputs", answers};
+    ASSERT_EQ(run(verify).code, 0);
+    const auto group = std::ranges::find_if(whole.groups, [](const cli::CaseGroup& g) { return g.name.starts_with("bc1"); });
+    ASSERT_NE(group, whole.groups.end());
+    std::vector<cli::Expectation> expected = whole.expected;
+    expected[group->first].expected.x = 1 << 30;
+    write_file(suite + "/expected.bin", {reinterpret_cast<const char*>(expected.data()), expected.size() * sizeof(expected[0])});
+    EXPECT_EQ(why_not_failed(run(verify), 3, "expects a texel that there is not"), "");
 }
 
 TEST(VectorUsage, IsRefusedWithTheNearestSpelling) {
