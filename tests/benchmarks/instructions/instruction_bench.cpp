@@ -11,7 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -68,12 +70,15 @@ json read_baseline(const std::string& file) {
     const json baseline = json::parse(stream, nullptr, false);
     if (!baseline.is_object() || !baseline.contains("workloads") || !baseline["workloads"].is_object())
         throw std::runtime_error(file + " holds no counts of instructions");
+    for (const json& one : baseline["workloads"])
+        if (!one.is_object() || !one.contains("instructions") || !one["instructions"].is_number_unsigned())
+            throw std::runtime_error(file + " holds a workload without a count of instructions");
     return baseline;
 }
 
 std::optional<uint64_t> before_of(const json& baseline, const std::string& name) {
     const auto found = baseline["workloads"].find(name);
-    if (found == baseline["workloads"].end() || !found->contains("instructions")) return std::nullopt;
+    if (found == baseline["workloads"].end()) return std::nullopt;
     return found->at("instructions").get<uint64_t>();
 }
 
@@ -142,7 +147,11 @@ int main_of(int argc, char** argv) {
     app.add_option("--simd", simd, "instruction set; valgrind knows none beyond avx2")->check(CLI::IsMember({"scalar", "sse4", "avx2"}));
     app.add_option("--json", file, "the counts with the machine's description: a baseline for later");
     app.add_option("--baseline", baseline_file, "counts to compare with: ends with 1 where any has grown")->check(CLI::ExistingFile);
-    app.add_option("--allow", allowed, "percent that a count may grow by")->check(CLI::Range(0.0, 1000.0));
+    app.add_option("--allow", allowed, "percent that a count may grow by")
+        ->check(CLI::Range(0.0, 1000.0))
+        ->check([](const std::string& text) {
+            return std::isnan(std::strtod(text.c_str(), nullptr)) ? std::string("not a number") : std::string();
+        });
     app.add_option("--run", under_valgrind, "run one workload: what is started under valgrind")->group("");
     try {
         app.parse(argc, argv);
@@ -157,8 +166,11 @@ int main_of(int argc, char** argv) {
     const std::vector<Workload> workloads = chosen(words);
     const json baseline = baseline_file.empty() ? json() : read_baseline(baseline_file);
     const json compiler = peer::machine_description()["compiler"];
-    if (!baseline.is_null() && baseline.value("/machine/compiler"_json_pointer, compiler) != compiler)
+    const json::json_pointer their_compiler("/machine/compiler");
+    if (baseline.contains("machine") && baseline["machine"].is_object() && baseline.value(their_compiler, compiler) != compiler)
         std::printf("The baseline was made by another compiler, whose code differs by itself.\n");
+    // Minutes of counting are not to end in a file that cannot be written.
+    if (!file.empty() && !std::ofstream(file, std::ios::app)) throw std::runtime_error(file + " cannot be written");
     Table table(baseline, allowed);
     std::vector<Count> counts;
     for (const Workload& workload : workloads) {
