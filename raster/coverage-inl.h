@@ -151,6 +151,9 @@ class TriangleCoverage {
         return true;
     }
 
+    /// Whether all samples of the block entered last are covered.
+    bool fills_block() const { return crossing_ == 0; }
+
     /// Covered lanes of the wave at (column, row), in the block entered last.
     uint32_t wave(int column, int row) const {
         if (crossing_ == 0) return 0xFFFFFFFFu;

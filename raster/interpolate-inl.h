@@ -145,18 +145,18 @@ class PlanesByLane {
     alignas(64) double a_[3][32], b_[3][32], c_[3][32], scale_[3][32];
 };
 
-/// The points of a block's lanes. Every term is a multiple of 2^-9, so that nothing rounds.
-HWY_INLINE void sample_points(const SampleOffset* offset, int x, int y, double* px, double* py) {
+/// Every term is a multiple of 2^-9, so that nothing rounds.
+HWY_INLINE void sample_points(const BlockPoints& points, double* px, double* py) {
     const SampleLanes d;
     const hn::Rebind<int32_t, SampleLanes> di;
     static_assert(sizeof(SampleOffset) == 2 * sizeof(int32_t) && kBlockWidth == 8);
     const auto scale = hn::Set(d, 1.0 / kSampleOne);
     for (size_t lane = 0; lane < 32; lane += hn::Lanes(d)) {
         hn::Vec<decltype(di)> of_x, of_y;
-        hn::LoadInterleaved2(di, &offset[lane].x, of_x, of_y);
-        const auto column = hn::Iota(d, double(x + int(lane % kBlockWidth)));
+        hn::LoadInterleaved2(di, &points.offset[lane].x, of_x, of_y);
+        const auto column = hn::Iota(d, double(points.x + int(lane % kBlockWidth)));
         hn::Store(hn::Add(column, hn::Mul(hn::PromoteTo(d, of_x), scale)), d, px + lane);
-        hn::Store(hn::Add(hn::Set(d, double(y + int(lane / kBlockWidth))), hn::Mul(hn::PromoteTo(d, of_y), scale)), d, py + lane);
+        hn::Store(hn::Add(hn::Set(d, double(points.y + int(lane / kBlockWidth))), hn::Mul(hn::PromoteTo(d, of_y), scale)), d, py + lane);
     }
 }
 
@@ -174,32 +174,113 @@ HWY_INLINE uint32_t lanes_of_triangle(const uint32_t* setup_index, uint32_t inde
     return lanes;
 }
 
-/// The quotients of the lanes from `lane` on, in the order of operations of `barycentrics`.
+/// What is the same wherever a triangle is looked at: the slopes of b/w along x and y, and of their sum.
+template <class V>
+struct BarycentricSlopes {
+    V dx1, dx2, dy1, dy2, sum_dx, sum_dy;
+};
+template <class Planes>
+HWY_INLINE auto barycentric_slopes(const Planes& planes, size_t lane) {
+    const SampleLanes d;
+    using V = hn::Vec<SampleLanes>;
+    const auto slope_x = [&](int i) HWY_ATTR { return hn::Mul(planes.scale(d, i, lane), planes.a(d, i, lane)); };
+    const auto slope_y = [&](int i) HWY_ATTR { return hn::Mul(planes.scale(d, i, lane), planes.b(d, i, lane)); };
+    const V dx1 = slope_x(1), dx2 = slope_x(2), dy1 = slope_y(1), dy2 = slope_y(2);
+    const V sum_dx = hn::Add(hn::Add(slope_x(0), dx1), dx2), sum_dy = hn::Add(hn::Add(slope_y(0), dy1), dy2);
+    return BarycentricSlopes<V>{dx1, dx2, dy1, dy2, sum_dx, sum_dy};
+}
+
+/// b/w of some lanes: of corners 1 and 2, and w.
+template <class V>
+struct BarycentricTerms {
+    V n1, n2, w;
+};
+template <class V>
+HWY_INLINE BarycentricTerms<V> barycentric_terms(V n0, V n1, V n2) {
+    return {n1, n2, hn::Div(hn::Set(SampleLanes(), 1.0), hn::Add(hn::Add(n0, n1), n2))};
+}
+
+/// Of some lanes, in the order of a BarycentricWave.
+template <class V>
+struct BarycentricQuotients {
+    V value[6];
+};
+/// In the order of operations of `barycentrics`.
+template <class V>
+HWY_INLINE BarycentricQuotients<V> barycentric_quotients(const BarycentricTerms<V>& terms, const BarycentricSlopes<V>& slopes) {
+    const V w = terms.w, b1 = hn::Mul(terms.n1, w), b2 = hn::Mul(terms.n2, w);
+    const auto quotient = [&](V slope, V weight, V sum) HWY_ATTR { return hn::Mul(hn::Sub(slope, hn::Mul(weight, sum)), w); };
+    return {{b1, b2, quotient(slopes.dx1, b1, slopes.sum_dx), quotient(slopes.dx2, b2, slopes.sum_dx),
+             quotient(slopes.dy1, b1, slopes.sum_dy), quotient(slopes.dy2, b2, slopes.sum_dy)}};
+}
+
+/// Calls store(k, lanes) with quotient k's 32 lanes.
+template <class Store>
+HWY_INLINE void for_each_quotient(BarycentricWave& out, const Store& store) {
+    float* const lanes[] = {out.b1, out.b2, out.db1_dx, out.db2_dx, out.db1_dy, out.db2_dy};
+    for (int k = 0; k < 6; ++k) store(k, lanes[k]);
+}
+
+template <class V>
+HWY_INLINE void store_quotients(const BarycentricQuotients<V>& quotients, size_t lane, BarycentricWave& out) {
+    const hn::Rebind<float, SampleLanes> df;
+    for_each_quotient(out, [&](int k, float* to) HWY_ATTR { hn::Store(hn::DemoteTo(df, quotients.value[k]), df, to + lane); });
+}
+
+/// Of two rows, one below the other. Where a vector holds both, it is stored at once: it is soon loaded at once, too.
+template <class V>
+HWY_INLINE void store_rows(const BarycentricQuotients<V>& upper, const BarycentricQuotients<V>& lower, size_t lane, BarycentricWave& out) {
+#if HWY_MAX_BYTES == 64
+    const hn::Rebind<float, SampleLanes> df;
+    const hn::Twice<decltype(df)> both;
+    for_each_quotient(out, [&](int k, float* to) HWY_ATTR {
+        hn::Store(hn::Combine(both, hn::DemoteTo(df, lower.value[k]), hn::DemoteTo(df, upper.value[k])), both, to + lane);
+    });
+#else
+    store_quotients(upper, lane, out);
+    store_quotients(lower, lane + kBlockWidth, out);
+#endif
+}
+
+/// Every lane at a point of its own.
 template <class Planes>
 HWY_INLINE void barycentric_lanes(const Planes& planes, const double* x, const double* y, size_t lane, BarycentricWave& out) {
     const SampleLanes d;
-    const hn::Rebind<float, SampleLanes> df;
-    using V = hn::Vec<SampleLanes>;
-    const V px = hn::Load(d, x + lane), py = hn::Load(d, y + lane);
+    const auto px = hn::Load(d, x + lane), py = hn::Load(d, y + lane);
     const auto over_w = [&](int i) HWY_ATTR {
-        const V along = hn::Add(hn::Mul(planes.a(d, i, lane), px), hn::Mul(planes.b(d, i, lane), py));
+        const auto along = hn::Add(hn::Mul(planes.a(d, i, lane), px), hn::Mul(planes.b(d, i, lane), py));
         return hn::Mul(planes.scale(d, i, lane), hn::Add(planes.c(d, i, lane), along));
     };
-    const auto slope_x = [&](int i) HWY_ATTR { return hn::Mul(planes.scale(d, i, lane), planes.a(d, i, lane)); };
-    const auto slope_y = [&](int i) HWY_ATTR { return hn::Mul(planes.scale(d, i, lane), planes.b(d, i, lane)); };
-    const V n1 = over_w(1), n2 = over_w(2);
-    const V dx1 = slope_x(1), dx2 = slope_x(2), dy1 = slope_y(1), dy2 = slope_y(2);
-    const V sum_dx = hn::Add(hn::Add(slope_x(0), dx1), dx2), sum_dy = hn::Add(hn::Add(slope_y(0), dy1), dy2);
-    const V w = hn::Div(hn::Set(d, 1.0), hn::Add(hn::Add(over_w(0), n1), n2));
-    const V b1 = hn::Mul(n1, w), b2 = hn::Mul(n2, w);
-    const auto store = [&](V value, float* to) HWY_ATTR { hn::Store(hn::DemoteTo(df, value), df, to + lane); };
-    const auto quotient = [&](V slope, V weight, V sum) HWY_ATTR { return hn::Mul(hn::Sub(slope, hn::Mul(weight, sum)), w); };
-    store(b1, out.b1);
-    store(b2, out.b2);
-    store(quotient(dx1, b1, sum_dx), out.db1_dx);
-    store(quotient(dx2, b2, sum_dx), out.db2_dx);
-    store(quotient(dy1, b1, sum_dy), out.db1_dy);
-    store(quotient(dy2, b2, sum_dy), out.db2_dy);
+    const auto terms = barycentric_terms(over_w(0), over_w(1), over_w(2));
+    store_quotients(barycentric_quotients(terms, barycentric_slopes(planes, lane)), lane, out);
+}
+
+/// One triangle and one offset: what depends on x is the same in every row, and in a row what depends on y. The rows' divisions come
+/// first, so that they overlap.
+HWY_INLINE void barycentric_rows(const InterpolationPlanes& planes, const BlockPoints& points, BarycentricWave& out) {
+    const SampleLanes d;
+    using V = hn::Vec<SampleLanes>;
+    const BroadcastPlanes broadcast(planes);
+    const auto slopes = barycentric_slopes(broadcast, 0);
+    const SampleOffset offset = points.offset[0];
+    const double first_y = points.y + double(offset.y) * (1.0 / kSampleOne);
+    for (size_t i = 0; i < size_t{kBlockWidth}; i += hn::Lanes(d)) {
+        const V x = hn::Add(hn::Iota(d, double(points.x + int(i))), hn::Set(d, double(offset.x) * (1.0 / kSampleOne)));
+        const auto along_x = [&](int k) HWY_ATTR { return hn::Mul(broadcast.a(d, k, 0), x); };
+        const V along0 = along_x(0), along1 = along_x(1), along2 = along_x(2);
+        const auto terms_of = [&](int row) HWY_ATTR {
+            const double y = first_y + row;
+            const auto over_w = [&](int k, V along) HWY_ATTR {
+                const V sum = hn::Add(along, hn::Set(d, planes.plane[k].b * y));
+                return hn::Mul(broadcast.scale(d, k, 0), hn::Add(broadcast.c(d, k, 0), sum));
+            };
+            return barycentric_terms(over_w(0, along0), over_w(1, along1), over_w(2, along2));
+        };
+        static_assert(kBlockHeight == 4);
+        const auto terms0 = terms_of(0), terms1 = terms_of(1), terms2 = terms_of(2), terms3 = terms_of(3);
+        store_rows(barycentric_quotients(terms0, slopes), barycentric_quotients(terms1, slopes), i, out);
+        store_rows(barycentric_quotients(terms2, slopes), barycentric_quotients(terms3, slopes), 2 * kBlockWidth + i, out);
+    }
 }
 
 /// Zeroes the lanes outside the mask.
@@ -210,25 +291,30 @@ HWY_INLINE void clear_other_lanes(uint32_t mask, BarycentricWave& out) {
     }
 }
 
-/// Barycentrics of the lanes of `mask` in the 8x4 block whose upper left pixel is (x, y): lane i lies in setup triangle setup_index[i], at
-/// offset[i] from its pixel's corner. Lanes outside the mask are left zero. `latest`: of this frame.
-HWY_ATTR inline void barycentric_wave(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y,
-                                      uint32_t mask, LatestPlanes& latest, BarycentricWave& out) {
+/// Barycentrics of the lanes of `mask` at the block's points, lane i in setup triangle setup_index[i]. Lanes outside the mask are left
+/// zero. `latest`: of this frame.
+HWY_ATTR inline void barycentric_wave(const Frame& frame, const uint32_t* setup_index, const BlockPoints& points, uint32_t mask,
+                                      LatestPlanes& latest, BarycentricWave& out) {
     if (mask == 0) {
         out = {};
         return;
     }
-    alignas(64) double px[32];
-    alignas(64) double py[32];
-    sample_points(offset, x, y, px, py);
     const uint32_t first = setup_index[std::countr_zero(mask)];
-    const size_t step = hn::Lanes(SampleLanes());
-    if ((lanes_of_triangle(setup_index, first) & mask) == mask) {
-        const BroadcastPlanes planes(latest.of(first));
-        for (size_t lane = 0; lane < 32; lane += step) barycentric_lanes(planes, px, py, lane, out);
+    const bool one_triangle = (lanes_of_triangle(setup_index, first) & mask) == mask;
+    if (one_triangle && points.same_offset) {
+        barycentric_rows(latest.of(first), points, out);
     } else {
-        const PlanesByLane planes(frame, setup_index, mask);
-        for (size_t lane = 0; lane < 32; lane += step) barycentric_lanes(planes, px, py, lane, out);
+        alignas(64) double px[32];
+        alignas(64) double py[32];
+        sample_points(points, px, py);
+        const size_t step = hn::Lanes(SampleLanes());
+        if (one_triangle) {
+            const BroadcastPlanes planes(latest.of(first));
+            for (size_t lane = 0; lane < 32; lane += step) barycentric_lanes(planes, px, py, lane, out);
+        } else {
+            const PlanesByLane planes(frame, setup_index, mask);
+            for (size_t lane = 0; lane < 32; lane += step) barycentric_lanes(planes, px, py, lane, out);
+        }
     }
     if (mask != 0xFFFFFFFFu) clear_other_lanes(mask, out);
 }

@@ -50,6 +50,13 @@ class LatestPlanes {
     InterpolationPlanes planes_{};
 };
 
+/// The sample points of an 8x4 block's lanes: lane i at offset[i] from its pixel's corner.
+struct BlockPoints {
+    int x, y;                    ///< upper left pixel of the block
+    const SampleOffset* offset;  ///< 32
+    bool same_offset = false;    ///< all 32 are equal, as the caller knows
+};
+
 /// 32 lanes, structure of arrays; raster/interpolate-inl.h computes it in vectors, bit-equal to `barycentrics` rounded to float.
 struct alignas(64) BarycentricWave {
     float b1[32], b2[32], db1_dx[32], db2_dx[32], db1_dy[32], db2_dy[32];

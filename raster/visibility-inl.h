@@ -63,6 +63,7 @@ class TileRasterizer {
         constexpr bool is_told = requires(const CandidateWave& opaque) { coverage.opaque(opaque); };
         const SetupTriangle& triangle = frame_.triangle(hit.setup_index);
         if (hit.small) {
+            write_blocks(hit);
             if (is_told || triangle.coverage != CoverageClass::Opaque || hit.last_x - hit.first_x >= kBlockWidth) {
                 draw_small(triangle, hit.setup_index, hit, coverage);
             } else if (hit.first_x == hit.last_x && hit.first_y == hit.last_y) {
@@ -203,10 +204,20 @@ class TileRasterizer {
     template <class Coverage>
     HWY_NOINLINE void draw_large(const SetupTriangle& triangle, uint32_t setup_index, const TileVisibility::Hit& pixels,
                                  Coverage& coverage) {
+        constexpr bool is_told = requires(const CandidateWave& opaque) { coverage.opaque(opaque); };
         TriangleCoverage covered(triangle, pass_);
         for (int row = pixels.first_y & -kHiZWidth; row <= pixels.last_y; row += kHiZWidth) {
             for (int column = pixels.first_x & -kHiZWidth; column <= pixels.last_x; column += kHiZWidth) {
                 if (!covered.enter_block(column, row)) continue;
+                TileVisibility::Block& entered = out_.block[block(column, row)];
+                if (!entered.written) {
+                    if (!is_told && triangle.coverage == CoverageClass::Opaque && entered.open == kHiZWidth * kHiZWidth &&
+                        covered.fills_block()) {
+                        fill_block(triangle, setup_index, entered);
+                        continue;
+                    }
+                    write_block(column, row, entered);
+                }
                 if (hiz_ && hidden(triangle, column, row)) {
                     ++out_.hiz_rejected;
                     continue;
@@ -216,6 +227,49 @@ class TileRasterizer {
                     if (mask != 0) draw_wave(triangle, setup_index, column, half, mask, coverage);
                 }
             }
+        }
+    }
+
+    /// All pixels of a block that shows nothing so far, without a look at their depth.
+    static void fill_block(const SetupTriangle& triangle, uint32_t setup_index, TileVisibility::Block& block) {
+        block.shown = setup_index;
+        block.open = 0;
+        block.stale = true;
+        block.nearest = triangle.depth_max;
+    }
+
+    /// Before single pixels of the blocks are looked at.
+    HWY_INLINE void write_blocks(const TileVisibility::Hit& pixels) {
+        for (int row = pixels.first_y & -kHiZWidth; row <= pixels.last_y; row += kHiZWidth) {
+            for (int column = pixels.first_x & -kHiZWidth; column <= pixels.last_x; column += kHiZWidth) {
+                TileVisibility::Block& reached = out_.block[block(column, row)];
+                if (!reached.written) write_block(column, row, reached);
+            }
+        }
+    }
+
+    /// The entries of what the block has shown so far.
+    HWY_NOINLINE void write_block(int column, int row, TileVisibility::Block& block) {
+        const RowDoubles d;
+        const DepthFloats df;
+        const hn::Rebind<uint32_t, RowDoubles> du;
+        const bool empty = block.shown == kNoTriangle;
+        const SetupTriangle* const triangle = empty ? nullptr : &frame_.triangle(block.shown);
+        block.written = true;
+        for (size_t i = 0; i < kHiZWidth; i += hn::Lanes(d)) {
+            for (int r = row; r < row + kHiZWidth; ++r) {
+                const size_t at = entry(column, r);
+                out_.covered[at / 8] = empty ? 0 : 0xFF;
+                hn::StoreU(hn::Set(du, block.shown), du, out_.triangle.data() + at + i);
+                if (empty) hn::StoreU(hn::Zero(df), df, out_.depth.data() + at + i);
+            }
+        }
+        if (empty) return;
+        const DepthLanes depth_of(*triangle, pass_, from_origin_x(*triangle, column));
+        for (int r = row; r < row + kHiZWidth; ++r) {
+            const size_t at = entry(column, r);
+            const double origin_y = from_origin_y(*triangle, r);
+            for (size_t i = 0; i < kHiZWidth; i += hn::Lanes(d)) hn::StoreU(depth_of.at(i, origin_y, at), df, out_.depth.data() + at + i);
         }
     }
 

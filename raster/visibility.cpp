@@ -31,12 +31,18 @@ void tile_visibility_opaque(const Frame& frame, int tile_x, int tile_y, const Ti
 
 void TileVisibility::reset(int size) {
     tile_size = size;
-    const size_t pixels = size_t(size) * size_t(size), blocks = pixels / 64;
+    const size_t pixels = size_t(size) * size_t(size);
+    hiz_rejected = 0;
+    block.assign(pixels / size_t(kBlockSide * kBlockSide), {.written = !may_leave_blocks});
+    if (may_leave_blocks) {
+        triangle.resize(pixels);
+        depth.resize(pixels);
+        covered.resize(pixels / 8);
+        return;
+    }
     triangle.assign(pixels, kNoTriangle);
     depth.assign(pixels, 0.0f);
     covered.assign(pixels / 8, 0);
-    block.assign(blocks, {});
-    hiz_rejected = 0;
 }
 
 }  // namespace rawtexel::raster

@@ -18,6 +18,8 @@ struct TileSamples {
 /// A tile's visibility: tile_size x tile_size entries, row by row. Pixels outside the frame hold no triangle.
 struct TileVisibility {
     int tile_size = 0;
+    /// Whoever reads the entries asks the block first: one that shows the same all over may be left unwritten. Set by the owner.
+    bool may_leave_blocks = false;
     std::vector<uint32_t> triangle;  ///< setup index, or kNoTriangle
     std::vector<float> depth;        ///< 1 near .. 0 far; 0 where there is no triangle
     uint64_t hiz_rejected = 0;       ///< 8x8 blocks of triangles skipped because what is drawn before hides all of them
@@ -26,12 +28,18 @@ struct TileVisibility {
     std::vector<uint8_t> covered;
     /// Of every 8x8 block, row by row; what opaque geometry alone has written.
     struct Block {
-        float farthest = 0.0f;  ///< depth of the farthest pixel as of the last look
-        float nearest = 0.0f;   ///< no pixel is nearer
-        int16_t open = 64;      ///< pixels inside of the frame that hold none
-        bool stale = false;     ///< written since that look
+        float farthest = 0.0f;         ///< depth of the farthest pixel as of the last look
+        float nearest = 0.0f;          ///< no pixel is nearer
+        int16_t open = 64;             ///< pixels inside of the frame that hold none
+        bool stale = false;            ///< written since that look
+        bool written = true;           ///< the entries of its pixels hold what they show
+        uint32_t shown = kNoTriangle;  ///< until they do: what all of them show, opaque or none
     };
     std::vector<Block> block;
+    const Block& block_of(int column, int row) const {
+        return block[size_t(row / kBlockSide) * size_t(tile_size / kBlockSide) + size_t(column / kBlockSide)];
+    }
+    static constexpr int kBlockSide = 8;
 
     /// A triangle of the bin, and the tile's pixels with a sample point inside its box, ends included.
     struct Hit {

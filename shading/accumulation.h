@@ -1,6 +1,8 @@
 // Sums of samples as fixed trees: the same bits whatever is summed apart, on however many threads or machines.
 #pragma once
 
+#include "texunit/wave.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -26,6 +28,8 @@ class SampleTree {
     void clear();
     /// Adds one sample that is not held yet (asserted); `values` has `width` entries.
     void add(uint64_t sample, std::span<const float> values);
+    /// The same for whole waves, width()/32 of them: takes their memory and leaves other waves in its place, of no meaning.
+    void take(uint64_t sample, std::vector<texunit::WaveFloat>& waves);
     /// Adds the samples of `other`, none of which is held yet (asserted): their first width() entries, where they have more.
     void merge(const SampleTree& other);
 
@@ -43,23 +47,29 @@ class SampleTree {
     std::optional<ScaledSums> scaled_sums() const;
 
   private:
+    using Waves = std::vector<texunit::WaveFloat>;
+
     /// Sum of the 2^level samples from `first` on; one of the two arrays is in use.
     struct Range {
         uint64_t first = 0;
         int level = 0;
-        std::vector<float> low;  ///< level <= kFloatLevels
+        Waves low;  ///< level <= kFloatLevels; the last wave may hold more than the sum
         std::vector<double> high;
     };
 
     bool are_siblings(const Range& left, const Range& right) const;
     void combine(Range& left, Range& right);
     void insert(Range range);
+    bool ends_pair(uint64_t sample) const;
+    void add_right_half(std::span<const float> values);
+    std::span<const float> low_of(const Range& range) const;
+    Waves free_waves();
     Range copy_of(uint64_t first, int level, std::span<const float> low, std::span<const double> high);
     void recycle(Range& range);
 
     size_t width_;
-    std::vector<Range> ranges_;                 ///< in the order of their samples
-    std::vector<std::vector<float>> free_low_;  ///< memory of ranges that are gone
+    std::vector<Range> ranges_;    ///< in the order of their samples
+    std::vector<Waves> free_low_;  ///< memory of ranges that are gone
     std::vector<std::vector<double>> free_high_;
 };
 

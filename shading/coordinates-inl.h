@@ -10,6 +10,8 @@
 #include "shading/draw_state.h"
 #include "texunit/sample.h"
 
+#include <type_traits>
+
 HWY_BEFORE_NAMESPACE();
 namespace rawtexel::shading {
 namespace HWY_NAMESPACE {
@@ -71,22 +73,43 @@ HWY_INLINE void interpolate_coordinate(const CornerCoordinate& c, const raster::
     hn::Store(hn::Add(hn::Mul(hn::Load(d, weights.db1_dy + i), f1), hn::Mul(hn::Load(d, weights.db2_dy + i), f2)), d, ddy.lane + i);
 }
 
-HWY_INLINE void interpolate_corners(const CoordinateState& state, CornerCoordinate u, CornerCoordinate v,
-                                    const raster::BarycentricWave& weights, size_t i, texunit::WaveCoordinates& out) {
-    reduce_range(state.wrap_s, u);
-    reduce_range(state.wrap_t, v);
-    interpolate_coordinate(u, weights, i, out.u, out.dudx, out.dudy);
-    interpolate_coordinate(v, weights, i, out.v, out.dvdx, out.dvdy);
+/// Both coordinates of the corners of lanes [i, i + Lanes), in the range that their fractions keep their bits in.
+struct CornerPair {
+    CornerCoordinate u, v;
+};
+HWY_INLINE CornerPair reduce_ranges(const CoordinateState& state, CornerPair c) {
+    reduce_range(state.wrap_s, c.u);
+    reduce_range(state.wrap_t, c.v);
+    return c;
+}
+
+HWY_INLINE void interpolate_pair(const CornerPair& c, const raster::BarycentricWave& weights, size_t i, texunit::WaveCoordinates& out) {
+    interpolate_coordinate(c.u, weights, i, out.u, out.dudx, out.dudy);
+    interpolate_coordinate(c.v, weights, i, out.v, out.dvdx, out.dvdy);
+}
+
+/// at(i): the corners of lanes [i, i + Lanes). Those of one triangle are asked for once.
+template <class Corners, class At>
+HWY_INLINE void interpolate_pairs(const CoordinateState& state, const At& at, const raster::BarycentricWave& weights,
+                                  texunit::WaveCoordinates& out) {
+    if constexpr (std::is_same_v<Corners, OneTriangle>) {
+        const CornerPair all = reduce_ranges(state, at(0));
+        for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(FloatLanes())) interpolate_pair(all, weights, i, out);
+    } else {
+        for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(FloatLanes()))
+            interpolate_pair(reduce_ranges(state, at(i)), weights, i, out);
+    }
 }
 
 template <class Corners>
 HWY_INLINE void interpolate_coordinates(const CoordinateState& state, const Mesh& mesh, const Corners& corners,
                                         const raster::BarycentricWave& weights, texunit::WaveCoordinates& out) {
-    for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(FloatLanes())) {
-        CornerCoordinate u, v;
-        corner_coordinates(state, mesh, corners, i, u, v);
-        interpolate_corners(state, u, v, weights, i, out);
-    }
+    const auto at = [&](size_t i) HWY_ATTR {
+        CornerPair c;
+        corner_coordinates(state, mesh, corners, i, c.u, c.v);
+        return c;
+    };
+    interpolate_pairs<Corners>(state, at, weights, out);
 }
 
 }  // namespace HWY_NAMESPACE

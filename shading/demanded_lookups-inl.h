@@ -285,7 +285,7 @@ class DemandedLookups {
     }
 
     void find_weights() {
-        const SampleBlock block{frame_, asking_.setup_index, offset_, wave_.x, wave_.y, latest_planes_};
+        const SampleBlock block{frame_, asking_.setup_index, {wave_.x, wave_.y, offset_}, latest_planes_};
         find_barycentrics(inputs_.derivatives, block, asking_.base_color, weights_);
         const bool layered = asking_.draw->material->material->alpha_mode != AlphaMode::Opaque;
         if (steps_.taken()) steps_.find(block, asking_.base_color, wave_.sample, layered);

@@ -20,8 +20,7 @@ namespace HWY_NAMESPACE {
 struct SampleBlock {
     const raster::Frame& frame;
     const uint32_t* setup_index;
-    const raster::SampleOffset* offset;
-    int x, y;                      ///< upper left pixel
+    raster::BlockPoints points;
     raster::LatestPlanes& latest;  ///< of the frame; lasts from block to block
 };
 
@@ -30,9 +29,11 @@ HWY_ATTR inline void quad_corner_barycentrics(const SampleBlock& block, int colu
     alignas(64) raster::SampleOffset offset[texunit::kWaveLanes];
     for (int lane = 0; lane < texunit::kWaveLanes; ++lane) {
         const int x = lane % texunit::kWaveWidth & 1, y = lane / texunit::kWaveWidth & 1;
-        offset[lane] = {block.offset[lane].x + (column - x) * raster::kSampleOne, block.offset[lane].y + (row - y) * raster::kSampleOne};
+        const raster::SampleOffset own = block.points.offset[lane];
+        offset[lane] = {own.x + (column - x) * raster::kSampleOne, own.y + (row - y) * raster::kSampleOne};
     }
-    raster::HWY_NAMESPACE::barycentric_wave(block.frame, block.setup_index, offset, block.x, block.y, mask, block.latest, out);
+    const raster::BlockPoints corners{block.points.x, block.points.y, offset};
+    raster::HWY_NAMESPACE::barycentric_wave(block.frame, block.setup_index, corners, mask, block.latest, out);
 }
 
 /// Replaces the derivatives by the coarse differences of each lane's quad (Vulkan "Derivative Operations"): from its upper left pixel to
@@ -52,7 +53,7 @@ HWY_ATTR inline void take_quad_differences(const SampleBlock& block, uint32_t ma
 
 HWY_ATTR inline void find_barycentrics(const DerivativeRule& rule, const SampleBlock& block, uint32_t mask,
                                        raster::BarycentricWave& weights) {
-    raster::HWY_NAMESPACE::barycentric_wave(block.frame, block.setup_index, block.offset, block.x, block.y, mask, block.latest, weights);
+    raster::HWY_NAMESPACE::barycentric_wave(block.frame, block.setup_index, block.points, mask, block.latest, weights);
     if (rule.quad) take_quad_differences(block, mask, weights);
     if (rule.scale == 1.0f) return;
     for (float* const values : {weights.db1_dx, weights.db2_dx, weights.db1_dy, weights.db2_dy}) {

@@ -36,6 +36,10 @@ HWY_INLINE texunit::WaveMask wave_mask_bits(FloatMask lanes, size_t i) {
 }
 
 HWY_INLINE void store_wave(const WaveFloat& value, texunit::WaveMask mask, WaveFloat& out) {
+    if (mask == texunit::kWaveFull) {
+        out = value;
+        return;
+    }
     const FloatLanes d;
     for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d))
         hn::BlendedStore(hn::Load(d, value.lane + i), wave_mask_lanes(mask, i), d, out.lane + i);

@@ -27,8 +27,11 @@ class TextureSteps {
 
     /// Finds the steps from the sample points of `lanes`, which are not empty. `layered`: every triangle has numbers of its own.
     HWY_NOINLINE void find(const SampleBlock& block, WaveMask lanes, uint32_t sample, bool layered) {
-        texunit::RandomAddress address{
-            .x = uint32_t(block.x), .y = uint32_t(block.y), .sample = sample, .dimension = texunit::Dimension::TextureX, .seed = seed_};
+        texunit::RandomAddress address{.x = uint32_t(block.points.x),
+                                       .y = uint32_t(block.points.y),
+                                       .sample = sample,
+                                       .dimension = texunit::Dimension::TextureX,
+                                       .seed = seed_};
         const auto surface_of = [&](int lane) { return layered ? 1 + block.frame.triangle(block.setup_index[lane]).triangle_id : 0; };
         for (WaveMask rest = lanes; rest != 0;) {
             address.surface = surface_of(std::countr_zero(rest));
@@ -66,13 +69,14 @@ class TextureSteps {
     static constexpr double kLongest = 16.0;
 
     void find_lane(const SampleBlock& block, int lane, raster::SampleOffset offset) {
-        const raster::SampleOffset from = block.offset[lane];
+        const raster::SampleOffset from = block.points.offset[lane];
         const double x = double(offset.x - from.x) / raster::kSampleOne, y = double(offset.y - from.y) / raster::kSampleOne;
         double longer = 1.0;
         if (mode_ == TextureJitter::Perspective) {
-            const raster::PerspectiveSlope slope = perspective_slope(
-                block.frame.triangle(block.setup_index[lane]), block.x + lane % texunit::kWaveWidth + double(from.x) / raster::kSampleOne,
-                block.y + lane / texunit::kWaveWidth + double(from.y) / raster::kSampleOne);
+            const raster::PerspectiveSlope slope =
+                perspective_slope(block.frame.triangle(block.setup_index[lane]),
+                                  block.points.x + lane % texunit::kWaveWidth + double(from.x) / raster::kSampleOne,
+                                  block.points.y + lane / texunit::kWaveWidth + double(from.y) / raster::kSampleOne);
             const double depth = 1.0 + slope.dx * x + slope.dy * y;
             longer = depth > 1.0 / kLongest ? 1.0 / depth : kLongest;
         }

@@ -80,8 +80,9 @@ class TileRenderer {
             planes_.begin_sample(k == 0);
             shade_sample(sample);
             if (demanded) demanded->tell_sample(sample, frame_offset_);
-            scratch_.sums.add(sample, {scratch_.sample.data()->lane, scratch_.sample.size() * texunit::kWaveLanes});
-            if (scratch_.adaptive) judge_sample(k + 1);
+            if (scratch_.adaptive) scratch_.adaptive->add(scratch_.sample);
+            scratch_.sums.take(sample, scratch_.sample);
+            if (scratch_.adaptive) judge_samples(k + 1);
             scratch_.totals.raster_s += std::chrono::duration<double>(drawn - start).count();
             scratch_.totals.shade_s += std::chrono::duration<double>(Clock::now() - drawn).count();
         }
@@ -104,8 +105,7 @@ class TileRenderer {
     }
 
     /// After `count` samples.
-    HWY_NOINLINE void judge_sample(uint32_t count) {
-        scratch_.adaptive->add(scratch_.sample);
+    HWY_NOINLINE void judge_samples(uint32_t count) {
         const bool decides = count >= uint32_t(kFirstAdaptiveDecision) && std::has_single_bit(count);
         if (decides && count < uint32_t(inputs_.spp)) scratch_.adaptive->decide(scratch_.sums);
     }
@@ -130,6 +130,7 @@ class TileRenderer {
     }
 
     void find_visible(uint32_t sample) {
+        scratch_.visibility.may_leave_blocks = !listens() && !watched();
         if (inputs_.skip_empty_tiles && frame_.bin(tile_x_, tile_y_).empty()) {
             if (sample == inputs_.first_sample) scratch_.visibility.reset(tile_size_);
             scratch_.candidates.clear();
@@ -260,7 +261,12 @@ class TileRenderer {
     void load_pixels(int x, int y) {
         wave_.has_directions = false;
         const size_t pixel = size_t(y * tile_size_ + x);
-        load_wave(&scratch_.visibility.triangle[pixel], tile_size_, wave_.setup_index);
+        const raster::TileVisibility::Block& block = scratch_.visibility.block_of(x, y);
+        if (block.written) {
+            load_wave(&scratch_.visibility.triangle[pixel], tile_size_, wave_.setup_index);
+        } else {
+            std::fill_n(wave_.setup_index, texunit::kWaveLanes, block.shown);
+        }
         if (inputs_.pixel_jitter == PixelJitter::Pixel) load_wave(&scratch_.offsets[pixel], tile_size_, wave_.offset);
     }
 
@@ -289,23 +295,25 @@ class TileRenderer {
             const DrawLanes seen = first_draw(frame_, wave_.setup_index, rest);
             const DrawState& draw = inputs_.draws[seen.draw];
             rest &= ~seen.lanes;
-            find_facing(seen);
+            shapes_ = draw.material->branches() || wants_shape(*draw.material->material);
+            if (shapes_) find_facing(seen);
             if (steps_.taken())
                 steps_.find(sample_block(), seen.lanes, wave_.sample, draw.material->material->alpha_mode != AlphaMode::Opaque);
             if (draw.material->branches()) {
                 shade_branches(draw, seen);
                 continue;
             }
-            shapes_ = wants_shape(*draw.material->material);
             find_fragment(draw, seen);
             shade_pass(draw, seen.lanes);
         }
     }
 
-    /// Whether anything asks for a plain surface's position and normals.
+    /// Whether anything asks for a plain surface's position, normals and side.
     bool wants_shape(const Material& material) const { return !material.unlit || planes_.keeps_layers() || watched(); }
 
-    SampleBlock sample_block() { return {frame_, wave_.setup_index, wave_.offset, wave_.x, wave_.y, latest_planes_}; }
+    SampleBlock sample_block() {
+        return {frame_, wave_.setup_index, {wave_.x, wave_.y, wave_.offset, inputs_.pixel_jitter == PixelJitter::Frame}, latest_planes_};
+    }
 
     void find_fragment(const DrawState& draw, const DrawLanes& seen, const PlaneLanes* planes = nullptr) {
         with_corners(frame_, *draw.mesh, wave_.setup_index, seen,
@@ -331,7 +339,6 @@ class TileRenderer {
     /// A material that blends planes or layers: a pass for each that a lane sees.
     HWY_NOINLINE void shade_branches(const DrawState& draw, const DrawLanes& seen) {
         const MaterialState& material = *draw.material;
-        shapes_ = true;
         with_corners(frame_, *draw.mesh, wave_.setup_index, seen,
                      [&](const auto& corners) HWY_ATTR { branches_.prepare(draw, corners, weights_, steps_); });
         branch_sum_.clear();

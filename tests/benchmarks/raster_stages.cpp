@@ -36,9 +36,10 @@ void interpolate_tile_here(const Frame& frame, const uint32_t* setup_index, stag
     for (int y = 0; y < 64; y += kBlockHeight)
         for (int x = 0; x < 64; x += kBlockWidth) {
             if (derivatives == stages::Derivatives::Analytic) {
-                barycentric_wave(frame, setup_index, offset, x, y, 0xFFFFFFFFu, latest, out);
+                barycentric_wave(frame, setup_index, {x, y, offset, true}, 0xFFFFFFFFu, latest, out);
             } else {
-                shading::HWY_NAMESPACE::find_barycentrics({.quad = true}, {frame, setup_index, offset, x, y, latest}, 0xFFFFFFFFu, out);
+                shading::HWY_NAMESPACE::find_barycentrics({.quad = true}, {frame, setup_index, {x, y, offset, true}, latest}, 0xFFFFFFFFu,
+                                                          out);
             }
         }
 }

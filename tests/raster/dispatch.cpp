@@ -1,5 +1,7 @@
 #include "tests/raster/dispatch.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tests/raster/dispatch.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per instruction set
@@ -18,7 +20,8 @@ void draw_tile_here(const Frame& frame, int tile_x, int tile_y, const TileSample
 
 void interpolate_wave_here(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y, uint32_t mask,
                            LatestPlanes& latest, BarycentricWave& out) {
-    barycentric_wave(frame, setup_index, offset, x, y, mask, latest, out);
+    const bool same = std::all_of(offset, offset + 32, [&](const SampleOffset& o) { return o.x == offset->x && o.y == offset->y; });
+    barycentric_wave(frame, setup_index, {x, y, offset, same}, mask, latest, out);
 }
 
 }  // namespace HWY_NAMESPACE

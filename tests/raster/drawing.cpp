@@ -1,5 +1,7 @@
 #include "tests/raster/drawing.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -18,10 +20,12 @@ uint32_t scramble(uint32_t x) {
 
 /// Calls visit(tile x, tile y, visibility) for every tile.
 template <class Visit>
-void for_each_tile(const Frame& frame, const SamplePattern& pattern, const CoveragePolicy& coverage, Visit&& visit) {
+void for_each_tile(const Frame& frame, const SamplePattern& pattern, const CoveragePolicy& coverage, Visit&& visit,
+                   bool may_leave_blocks = false) {
     const int size = frame.options().tile_size;
     std::vector<SampleOffset> offsets(size_t(size) * size_t(size));
     TileVisibility tile;
+    tile.may_leave_blocks = may_leave_blocks;
     for (int tile_y = 0; tile_y < frame.tiles_y(); ++tile_y) {
         for (int tile_x = 0; tile_x < frame.tiles_x(); ++tile_x) {
             TileSamples samples{pattern.frame, nullptr};
@@ -115,6 +119,28 @@ Picture draw_frame(const Frame& frame, const SamplePattern& pattern, const Cover
         }
     });
     return picture;
+}
+
+uint64_t expect_left_blocks_agree(const Frame& frame, const SamplePattern& pattern, const CoveragePolicy& coverage) {
+    std::vector<TileVisibility> written;
+    for_each_tile(frame, pattern, coverage, [&](int, int, const TileVisibility& tile) { written.push_back(tile); });
+    uint64_t left = 0, differing = 0;
+    const auto compare_tile = [&](int tile_x, int tile_y, const TileVisibility& tile) {
+        const TileVisibility& expected = written[size_t(tile_y) * size_t(frame.tiles_x()) + size_t(tile_x)];
+        EXPECT_EQ(tile.hiz_rejected, expected.hiz_rejected);
+        for (size_t pixel = 0; pixel < expected.triangle.size(); ++pixel) {
+            const TileVisibility::Block& block = tile.block_of(int(pixel) % tile.tile_size, int(pixel) / tile.tile_size);
+            differing += (block.written ? tile.triangle[pixel] : block.shown) != expected.triangle[pixel];
+            differing += block.written && tile.depth[pixel] != expected.depth[pixel];
+        }
+        for (size_t block = 0; block < tile.block.size(); ++block) {
+            differing += tile.block[block].open != expected.block[block].open;
+            left += !tile.block[block].written && tile.block[block].shown != kNoTriangle;
+        }
+    };
+    for_each_tile(frame, pattern, coverage, compare_tile, true);
+    EXPECT_EQ(differing, 0u) << "entries of tiles whose blocks may be left unwritten";
+    return left;
 }
 
 Picture draw_frame(const Frame& frame, const SamplePattern& pattern) {

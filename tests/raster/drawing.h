@@ -55,6 +55,10 @@ struct Picture {
 Picture draw_frame(const Frame& frame, const SamplePattern& pattern, const CoveragePolicy& coverage);
 Picture draw_frame(const Frame& frame, const SamplePattern& pattern);
 
+/// Draws the frame twice, the second time so that blocks may be left unwritten, and fails the test where anything differs. Returns how many
+/// blocks were left that show a triangle.
+uint64_t expect_left_blocks_agree(const Frame& frame, const SamplePattern& pattern, const CoveragePolicy& coverage);
+
 /// By pixel: how many different triangles ask for coverage when none ever covers. All draws must be masked or blended.
 std::vector<int> count_candidates(const Frame& frame, const SamplePattern& pattern);
 

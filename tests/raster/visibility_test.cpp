@@ -39,6 +39,7 @@ void expect_true_winners(const Frame& frame, const SamplePattern& pattern, uint6
             ++samples;
         }
     }
+    expect_left_blocks_agree(frame, pattern, cover_by_hash);
 }
 
 TEST(Visibility, IsTheNearestCoveringTriangleThenTheFirst) {
@@ -54,6 +55,35 @@ TEST(Visibility, IsTheNearestCoveringTriangleThenTheFirst) {
     }
     tell_tested(samples);
     tell_worst_case("winners_or_depths_that_differ", 0);
+}
+
+/// Walls over most of the frame, and in its left half small triangles in front of them and behind.
+TEST(Visibility, LeavesBlocksThatOneTriangleFillsUnwritten) {
+    for (uint32_t seed = 1; seed <= 8; ++seed) {
+        std::mt19937 random(seed);
+        const auto at = [&](float left, float right, float depth) {
+            return glm::vec3(uniform(random, left, right), uniform(random, -20, 170), depth);
+        };
+        Mesh walls, small;
+        walls.add(at(-90, 0, 0.5f), at(200, 300, 0.6f), at(100, 200, 0.3f));
+        walls.add({-100, 400, 0.4f}, {-100, -100, 0.4f}, {500, -100, 0.5f});
+        for (int k = 0; k < 40; ++k) {
+            const glm::vec3 corner = at(0, 75, uniform(random, 0.2f, 0.8f));
+            small.add(corner, corner + glm::vec3(uniform(random, -9, 9), 4, 0), corner + glm::vec3(3, uniform(random, -9, 9), 0.05f));
+        }
+        const glm::mat4 clip_from_object = clip_from_pixels(150, 150);
+        std::vector<Draw> draws{walls.draw(clip_from_object), small.draw(clip_from_object), small.draw(clip_from_object)};
+        draws[2].coverage = CoverageClass::Masked;
+        draws[1].first_triangle_id = draws[0].triangle_count;
+        draws[2].first_triangle_id = draws[0].triangle_count + draws[1].triangle_count;
+        const Frame frame(frame_options(150, 150), draws);
+        for (const SamplePattern& pattern : sample_patterns()) {
+            for (const int64_t set : instruction_sets()) {
+                const UseInstructionSet use(set);
+                EXPECT_GT(expect_left_blocks_agree(frame, pattern, cover_by_hash), 20u) << "seed " << seed;
+            }
+        }
+    }
 }
 
 TEST(Visibility, IsTheSameOnEveryInstructionSet) {

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <random>
 
 namespace rawtexel::shading {
@@ -111,6 +112,31 @@ TEST(SampleTree, ScaledSumsAreTheMeanToTheBit) {
             ASSERT_EQ(mean[i], float(sum[i] / double(count))) << i;
             ASSERT_EQ(scaled->sum[i] * scaled->share, mean[i]) << i;
         }
+    }
+}
+
+TEST(SampleTree, TakesWavesAsItAddsValues) {
+    constexpr size_t kWaves = 3, kValues = kWaves * texunit::kWaveLanes;
+    SampleTree added(kValues), taken(kValues);
+    std::vector<texunit::WaveFloat> waves(kWaves);
+    for (uint64_t round = 0; round < 2; ++round) {
+        for (uint64_t sample = 0; sample < 37; ++sample) {
+            std::vector<float> values;
+            for (size_t part = 0; values.size() < kValues; ++part)
+                std::ranges::copy(sample_values(100 * sample + part), std::back_inserter(values));
+            values.resize(kValues);
+            for (size_t i = 0; i < kValues; ++i) waves[i / texunit::kWaveLanes][int(i % texunit::kWaveLanes)] = values[i];
+            added.add(sample, values);
+            taken.take(sample, waves);
+            ASSERT_EQ(waves.size(), kWaves);
+        }
+        std::vector<double> sum(kValues), expected(kValues);
+        taken.sum(0, sum);
+        added.sum(0, expected);
+        ASSERT_EQ(sum, expected);
+        ASSERT_EQ(taken.samples(), 37u);
+        taken.clear();
+        added.clear();
     }
 }
 
