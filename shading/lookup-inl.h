@@ -11,6 +11,8 @@
 #include "texunit/fetch_log.h"
 #include "texunit/sample-inl.h"
 
+#include <bit>
+
 HWY_BEFORE_NAMESPACE();
 namespace rawtexel::shading {
 namespace HWY_NAMESPACE {
@@ -35,17 +37,47 @@ HWY_NOINLINE inline void fill_constant(const MapState& map, texunit::WaveColor& 
         for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) hn::Store(hn::Set(d, colour[c]), d, out.channel[c].lane + i);
 }
 
-/// Those that no plan draws. `lod`: of the base colour's lookup, where asked for.
+/// Reads the maps of `slots`, bits, which are alike; `lod` where asked for.
+HWY_INLINE void look_up_alike(const MaterialState& material, const FragmentWave& fragment, WaveMask mask, uint32_t slots, MapColors& out,
+                              WaveFloat* lod) {
+    static_assert(kMapSlots <= texunit::HWY_NAMESPACE::AlikeTextures::kMost);
+    const MapState& first = material.maps[size_t(std::countr_zero(slots))];
+    texunit::HWY_NAMESPACE::AlikeTextures textures;
+    for (uint32_t rest = slots; rest != 0; rest &= rest - 1) {
+        const auto slot = size_t(std::countr_zero(rest));
+        textures.add(*material.maps[slot].texture, out.slot[slot]);
+    }
+    texunit::HWY_NAMESPACE::sample_alike_lanes(textures, first.sampler, fragment.coordinates[first.coordinates], mask, lod);
+}
+
+/// Those that no plan draws, for the lanes of `mask`, which is not 0. `lod`: of the base colour's lookup, where asked for.
 HWY_INLINE void look_up_maps(const MaterialState& material, const FragmentWave& fragment, WaveMask mask, MapColors& out, WaveFloat* lod) {
+    uint32_t slots = 0;
     for (int slot = 0; slot < kMapSlots; ++slot) {
         const MapState& map = material.maps[size_t(slot)];
         if (!map.texture || material.plans.averaged.holds(slot) || material.plans.shaded.holds(slot)) continue;
-        WaveFloat* const found_lod = slot == kBaseColor ? lod : nullptr;
-        if (map.may_be_constant && found_lod == nullptr && map.texture->is_one_colour()) {
+        const bool finds_lod = slot == kBaseColor && lod != nullptr;
+        if (map.may_be_constant && !finds_lod && map.texture->is_one_colour()) {
             fill_constant(map, out.slot[slot]);
-            continue;
+        } else {
+            slots |= 1u << slot;
         }
-        look_up(map, fragment.coordinates[map.coordinates], mask, out.slot[slot], found_lod);
+    }
+    while (slots != 0) {
+        const int slot = std::countr_zero(slots);
+        const MapState& map = material.maps[size_t(slot)];
+        uint32_t together = 1u << slot;
+        for (uint32_t rest = map.alike < 0 ? 0 : slots; rest != 0; rest &= rest - 1) {
+            const int other = std::countr_zero(rest);
+            if (material.maps[size_t(other)].alike == map.alike) together |= 1u << other;
+        }
+        slots &= ~together;
+        WaveFloat* const found_lod = slot == kBaseColor ? lod : nullptr;
+        if (std::has_single_bit(together)) {
+            look_up(map, fragment.coordinates[map.coordinates], mask, out.slot[slot], found_lod);
+        } else {
+            look_up_alike(material, fragment, mask, together, out, found_lod);
+        }
     }
     for (size_t k = 0; k < 2; ++k) {
         if (!material.gloss.moments[k]) continue;

@@ -42,6 +42,26 @@ bool draws_alike(const MapState& a, const MapState& b) {
     return a.coordinates == b.coordinates && a.sampler == b.sampler && same_shape;
 }
 
+/// Bilinear and trilinear lookups of words: what texunit/sample_alike-inl.h reads together.
+bool can_look_up_alike(const MapState& map) {
+    const texunit::Kernel& kernel = map.sampler.magnify;
+    return kernel == texunit::Kernel::Bilinear && map.sampler.minify == kernel && map.sampler.is_isotropic() &&
+           map.texture->texel_layout().storage == texunit::StorageClass::Packed32 && map.texture->shape().layers == 1 &&
+           map.texture->shape().depth == 1;
+}
+
+void find_alike(MaterialState& state) {
+    for (int slot = 0; slot < kMapSlots; ++slot) {
+        MapState& map = state.maps[size_t(slot)];
+        if (!map.texture || !can_look_up_alike(map)) continue;
+        map.alike = slot;
+        for (int first = slot - 1; first >= 0; --first) {
+            const MapState& other = state.maps[size_t(first)];
+            if (other.alike == first && draws_alike(other, map)) map.alike = first;
+        }
+    }
+}
+
 void add_to_plan(const MaterialState& state, int slot, TapPlan& plan) {
     const MapState& map = state.maps[size_t(slot)];
     for (int k = 0; k < plan.lookups && !plan.holds(slot); ++k)
@@ -124,6 +144,7 @@ MaterialState make_material_state(const Scene& scene, uint32_t index, const Look
         lookup.may_be_constant = overrides.constant_texels && keeps_constants(lookup.sampler);
     }
     make_plans(scene, overrides, state);
+    find_alike(state);
     // Where a policy has taps shaded there is no one surface to blend.
     state.blends_light |= !state.plans.shaded.empty();
     return state;

@@ -28,6 +28,7 @@ struct MapState {
     texunit::SamplerState sampler;
     int coordinates = 0;           ///< in MaterialState::coordinates
     bool may_be_constant = false;  ///< where its texture is one colour, the lookup is that colour to the bit
+    int alike = -1;  ///< the material's first map that reads the same texels of a texture of its own; -1: must be read by itself
 };
 
 /// A baseline that corrects gloss for what filtering takes from the normal map.

@@ -4,6 +4,8 @@
 
 #include <hwy/highway.h>
 
+#include <cassert>
+
 // Included once per instruction set (highway's guard for -inl.h files).
 #if defined(RAWTEXEL_TEXUNIT_SAMPLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef RAWTEXEL_TEXUNIT_SAMPLE_INL_H_
@@ -22,6 +24,26 @@ namespace HWY_NAMESPACE {
 template <class Count>
 void sample_lanes(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, Count& count, WaveColor& out,
                   WaveFloat* lod, const WaveFloat* layer = nullptr);
+
+/// Textures that differ in nothing but their texels, as the maps of a material often do, and what is read of each.
+struct AlikeTextures {
+    static constexpr int kMost = 8;
+
+    int count = 0;
+    Texture* texture[kMost];
+    WaveColor* out[kMost];
+
+    void add(Texture& another, WaveColor& to) {
+        assert(count < kMost);
+        texture[count] = &another;
+        out[count++] = &to;
+    }
+};
+
+/// sample_lanes() of every one of them, to the bit, with levels and taps chosen once. Their shapes are the same (at least one, flat, one
+/// layer), their storage is Packed32, and the sampler is isotropic and bilinear in and between levels; `mask` is not empty.
+void sample_alike_lanes(const AlikeTextures& textures, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask,
+                        WaveFloat* lod);
 
 /// sample_volume_wave and sample_cube_wave in the same way.
 template <class Count>

@@ -7,6 +7,7 @@
 #include <hwy/foreach_target.h>
 
 #include "texunit/sample-inl.h"
+#include "texunit/sample_alike-inl.h"
 #include "texunit/sample_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();

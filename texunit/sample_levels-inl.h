@@ -51,6 +51,17 @@ HWY_NOINLINE void hear_taps(const LevelTable& table, const TapWave<W>& taps, boo
               mask, count);
 }
 
+/// Fetches taps and filters them.
+template <StorageClass storage, int W>
+HWY_INLINE void read_flat_taps(Texture& texture, const SamplerState& sampler, bool cube, const TapWave<W>& taps, WaveColor& out) {
+    if constexpr (storage == StorageClass::Packed32 && W == 2) {
+        if (!taps.leaves) return filter_packed_bilinear(texture, taps, out);
+    }
+    TexelWave<W * W> texels;
+    fetch<storage>(texture, sampler.border, cube, taps, texels);
+    filter<storage>(taps, texels, out);
+}
+
 /// One level of a 2-D texture or a cube map through a kernel of W taps an axis.
 template <StorageClass storage, int W, class Count>
 HWY_INLINE void sample_flat_level(Texture& texture, const SamplerState& sampler, const WavePosition& at, const WaveInt& level,
@@ -58,12 +69,7 @@ HWY_INLINE void sample_flat_level(Texture& texture, const SamplerState& sampler,
     TapWave<W> taps;
     select_taps(texture.levels(), sampler, at, level, nearest, taps);
     if constexpr (Count::kReads) {
-        if constexpr (storage == StorageClass::Packed32 && W == 2) {
-            if (!taps.leaves) return filter_packed_bilinear(texture, taps, out);
-        }
-        TexelWave<W * W> texels;
-        fetch<storage>(texture, sampler.border, at.cube(), taps, texels);
-        filter<storage>(taps, texels, out);
+        read_flat_taps<storage>(texture, sampler, at.cube(), taps, out);
     } else {
         hear_taps(texture.levels(), taps, at.cube(), nullptr, counted, count);
     }

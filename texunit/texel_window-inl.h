@@ -49,6 +49,14 @@ HWY_INLINE void find_range(const WaveInt* waves, int count, int32_t& least, int3
     most = hn::GetLane(hn::MaxOfLanes(d, high));
 }
 
+HWY_INLINE bool is_same(const WaveInt& wave) {
+    const IntTag d;
+    const auto first = hn::Set(d, wave[0]);
+    auto same = hn::FirstN(d, hn::Lanes(d));
+    for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) same = hn::And(same, hn::Eq(hn::Load(d, wave.lane + i), first));
+    return hn::AllTrue(d, same);
+}
+
 /// Finds the window of the taps; false where more than `most_registers` would have to hold it, or where they lie in several levels. Where
 /// blocks of the level are missing, windows are of 4x4 texels at most, so that they make no block that lies between their taps' blocks.
 HWY_INLINE bool find_window(const Texture& texture, const WaveInt& level, const WaveInt* x, int columns, const WaveInt* y, int rows,
@@ -63,9 +71,7 @@ HWY_INLINE bool find_window(const Texture& texture, const WaveInt& level, const 
     if (height > (window.whole_level ? most_registers * kRegisterTexels >> window.log2_columns : 4)) return false;
     const int texels = height << window.log2_columns;
     window.registers = texels <= kRegisterTexels ? 1 : texels <= 2 * kRegisterTexels ? 2 : 4;
-    int32_t finest, coarsest;
-    find_range(&level, 1, finest, coarsest);
-    return finest == coarsest;
+    return is_same(level);
 }
 
 /// Of a window of 4x4 texels, which lies in the blocks of its corners and no others: makes those blocks that are not ready.
