@@ -28,7 +28,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// Every lane its own triangle.
 using HitInts = hn::CappedTag<int32_t, 16>;
+inline constexpr size_t kHitChunk = 128;      // looked at before they are drawn
 inline constexpr size_t kCornerPadding = 16;  // so that vectors may read past the last triangle
+static_assert(kHitChunk % kCornerPadding == 0);
 
 /// One bit per lane.
 template <class M>
@@ -40,32 +42,54 @@ HWY_INLINE uint32_t hit_bits(M mask) {
 }
 
 /// The corners of the bin's triangles, in 1/512 pixel from the tile's upper left corner, by coordinate: the same for all samples.
-inline void find_corners(const Frame& frame, std::span<const uint32_t> bin, const TilePass& pass, TileVisibility& out) {
-    constexpr size_t kAhead = 24;  // triangles come from memory, and a bin's may lie far apart
-    TileVisibility::Corners& corners = out.corners;
-    for (size_t k = 0; k < 3; ++k) {
-        corners.x[k].resize(bin.size() + kCornerPadding);
-        corners.y[k].resize(bin.size() + kCornerPadding);
-    }
-    corners.opaque = 0;
-    for (size_t i = 0; i < bin.size(); ++i) {
-        if (i + kAhead < bin.size()) hwy::Prefetch(&frame.triangle(bin[i + kAhead]));
-        const SetupTriangle& t = frame.triangle(bin[i]);
-        for (size_t k = 0; k < 3; ++k) {
-            corners.x[k][i] = 2 * t.x[k] - pass.x * kSampleOne;
-            corners.y[k][i] = 2 * t.y[k] - pass.y * kSampleOne;
+class CornerFinder {
+  public:
+    CornerFinder(const Frame& frame, std::span<const uint32_t> bin, const TilePass& pass, TileVisibility& out)
+        : frame_(frame), bin_(bin), pass_(pass), corners_(out.corners) {
+        const int tile_x = pass.x / pass.size, tile_y = pass.y / pass.size;
+        known_ = corners_.frame == frame.serial() && corners_.tile_x == tile_x && corners_.tile_y == tile_y;
+        if (known_) return;
+        for (std::vector<int32_t>(*const axis)[3] : {&corners_.x, &corners_.y}) {
+            for (std::vector<int32_t>& of_corner : *axis) {
+                of_corner.resize(bin.size() + kCornerPadding);
+                // Beyond every tile.
+                std::fill_n(of_corner.begin() + ptrdiff_t(bin.size()), kCornerPadding, std::numeric_limits<int32_t>::max() / 2);
+            }
         }
-        corners.opaque += t.coverage == CoverageClass::Opaque;
+        corners_.opaque = 0;
+        corners_.frame = 0;  // until all are found
+        corners_.tile_x = tile_x;
+        corners_.tile_y = tile_y;
     }
-    for (size_t k = 0; k < 3; ++k) {
-        // Beyond every tile.
-        std::fill_n(corners.x[k].begin() + ptrdiff_t(bin.size()), kCornerPadding, std::numeric_limits<int32_t>::max() / 2);
-        std::fill_n(corners.y[k].begin() + ptrdiff_t(bin.size()), kCornerPadding, std::numeric_limits<int32_t>::max() / 2);
+
+    /// Of the triangles [begin, end), after those before them.
+    void find(size_t begin, size_t end) {
+        if (known_) return;
+        constexpr size_t kAhead = 24;  // triangles come from memory, and a bin's may lie far apart
+        int32_t* const x[] = {corners_.x[0].data(), corners_.x[1].data(), corners_.x[2].data()};
+        int32_t* const y[] = {corners_.y[0].data(), corners_.y[1].data(), corners_.y[2].data()};
+        const int32_t left = pass_.x * kSampleOne, top = pass_.y * kSampleOne;
+        size_t opaque = 0;
+        for (size_t i = begin; i < end; ++i) {
+            if (i + kAhead < bin_.size()) hwy::Prefetch(&frame_.triangle(bin_[i + kAhead]));
+            const SetupTriangle& t = frame_.triangle(bin_[i]);
+            for (size_t k = 0; k < 3; ++k) {
+                x[k][i] = 2 * t.x[k] - left;
+                y[k][i] = 2 * t.y[k] - top;
+            }
+            opaque += t.coverage == CoverageClass::Opaque;
+        }
+        corners_.opaque += opaque;
+        if (end == bin_.size()) corners_.frame = frame_.serial();
     }
-    corners.frame = frame.serial();
-    corners.tile_x = pass.x / pass.size;
-    corners.tile_y = pass.y / pass.size;
-}
+
+  private:
+    const Frame& frame_;
+    std::span<const uint32_t> bin_;
+    const TilePass& pass_;
+    TileVisibility::Corners& corners_;
+    bool known_;
+};
 
 /// Finds the hits of one pass.
 class HitFinder {
@@ -74,11 +98,12 @@ class HitFinder {
     HitFinder(std::span<const uint32_t> bin, const TilePass& pass, bool told, TileVisibility& out)
         : bin_(bin), pass_(pass), covers_(!told && pass.samples.per_pixel == nullptr), corners_(out.corners), hits_(out.hits) {}
 
-    void run() {
+    /// Appends the hits of the triangles [begin, end), whose corners are known; `begin` is a multiple of kHitChunk.
+    void find(size_t begin, size_t end) {
         const HitInts d;
-        hits_.resize(bin_.size());
-        size_t count = 0;
-        for (size_t i = 0; i < bin_.size(); i += hn::Lanes(d)) count = find_lanes(i, count);
+        size_t count = hits_.size();
+        hits_.resize(count + (end - begin));
+        for (size_t i = begin; i < end; i += hn::Lanes(d)) count = find_lanes(i, count);
         hits_.resize(count);
     }
 

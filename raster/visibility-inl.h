@@ -80,7 +80,12 @@ class TileRasterizer {
         const SetupTriangle& triangle = frame_.triangle(hit.setup_index);
         const uint32_t first_x = uint32_t(hit.first_x), first_y = uint32_t(hit.first_y), setup_index = hit.setup_index;
         const uint32_t across = first_x ^ uint32_t(hit.last_x), down = first_y ^ uint32_t(hit.last_y);
-        if (hiz_ && (across | down) != 0 && rejects(triangle, hit)) return;
+        TileVisibility::Block* const blocks = out_.block.data();
+        const size_t stride = size_t(pass_.size), blocks_x = size_t(blocks_x_), first = first_y * stride + first_x;
+        const auto block_of = [&](uint32_t column, uint32_t row) { return row / kHiZWidth * blocks_x + column / kHiZWidth; };
+        TileVisibility::Block& first_block = blocks[block_of(first_x, first_y)];
+        // Most blocks still have pixels that show nothing, when small triangles come.
+        if (hiz_ && (across | down) != 0 && first_block.open == 0 && rejects(triangle, hit)) return;
         if (hit.covered == 0) return;
         // Bytes that are written may be anything's, so that all else is to be at hand.
         const hn::CappedTag<double, 1> d;
@@ -94,9 +99,6 @@ class TileRasterizer {
         float* const depths = out_.depth.data();
         uint32_t* const triangles = out_.triangle.data();
         uint8_t* const covered = out_.covered.data();
-        TileVisibility::Block* const blocks = out_.block.data();
-        const size_t stride = size_t(pass_.size), blocks_x = size_t(blocks_x_), first = first_y * stride + first_x;
-        const auto block_of = [&](uint32_t column, uint32_t row) { return row / kHiZWidth * blocks_x + column / kHiZWidth; };
         const bool in_one_block = (across | down) < kHiZWidth;
         int fresh = 0;
         bool written = false;
@@ -120,7 +122,7 @@ class TileRasterizer {
                 written = false;
             }
         }
-        if (written) tell_block(blocks[block_of(first_x, first_y)], fresh, depth_max);
+        if (written) tell_block(first_block, fresh, depth_max);
     }
 
   private:
@@ -489,20 +491,28 @@ void tile_visibility(const Frame& frame, int tile_x, int tile_y, const TileSampl
     const std::span<const uint32_t> bin = frame.bin(tile_x, tile_y);
     if (bin.empty()) return;
     const TilePass pass(frame, tile_x, tile_y, samples);
-    const TileVisibility::Corners& known = out.corners;
-    if (known.frame != frame.serial() || known.tile_x != tile_x || known.tile_y != tile_y) find_corners(frame, bin, pass, out);
     if (!pass.whole()) count_inside(pass, out);
     TileRasterizer rasterizer(frame, pass, out);
 
     constexpr bool is_told = requires(const CandidateWave& opaque) { coverage.opaque(opaque); };
-    HitFinder(bin, pass, is_told, out).run();
+    CornerFinder corners(frame, bin, pass, out);
+    HitFinder finder(bin, pass, is_told, out);
+    out.hits.clear();
     constexpr size_t kAhead = 4;  // the triangles of a bin may lie far apart in memory: far enough ahead, and not too far
-    for (size_t i = 0; i < out.hits.size(); ++i) {
-        if (i + kAhead < out.hits.size()) hwy::Prefetch(&frame.triangle(out.hits[i + kAhead].setup_index));
-        if (out.hits[i].tiny) {
-            rasterizer.draw_tiny(out.hits[i]);
-        } else {
-            rasterizer.draw(out.hits[i], coverage);
+    for (size_t begin = 0; begin < bin.size(); begin += kHitChunk) {
+        const size_t end = std::min(begin + kHitChunk, bin.size()), first = out.hits.size();
+        corners.find(begin, end);
+        finder.find(begin, end);
+        // The next ones come from memory while these are drawn.
+        const size_t next = std::min(end + kHitChunk, bin.size());
+        for (size_t i = first, wanted = end; i < out.hits.size(); ++i, ++wanted) {
+            if (wanted < next) hwy::Prefetch(&frame.triangle(bin[wanted]));
+            if (i + kAhead < out.hits.size()) hwy::Prefetch(&frame.triangle(out.hits[i + kAhead].setup_index));
+            if (out.hits[i].tiny) {
+                rasterizer.draw_tiny(out.hits[i]);
+            } else {
+                rasterizer.draw(out.hits[i], coverage);
+            }
         }
     }
 }
