@@ -67,7 +67,10 @@ class ClusterSetup {
             triangles += inputs_.draws[visible.draw].clusters->clusters[visible.cluster].triangle_count;
         batch_.entries.resize(triangles + triangles / 4 + kClusterTriangles);
         batch_.counts.triangles += triangles;
-        for (const VisibleCluster& visible : clusters) add(visible);
+        for (size_t i = 0; i < clusters.size(); ++i) {
+            if (i + 1 < clusters.size()) prefetch(clusters[i + 1]);
+            add(clusters[i]);
+        }
         append_pieces(capacity);
         batch_.entries.resize(entry_count_);
         hwy::FlushStream();
@@ -75,17 +78,44 @@ class ClusterSetup {
 
   private:
     static constexpr size_t kVertices = 3 * kClusterTriangles, kRoom = kClusterTriangles + 8;
+    static constexpr size_t kGroup = 16, kCacheLine = 64;
+    static_assert(kGroup % 8 == 0);  // lanes, at most
+
+    /// Clusters come from memory, each from many places of it.
+    HWY_INLINE void prefetch(const VisibleCluster& visible) const {
+        const MeshClusters& mesh = *inputs_.draws[visible.draw].clusters;
+        const Cluster& cluster = mesh.clusters[visible.cluster];
+        const auto read = [](const auto* first, size_t count) HWY_ATTR {
+            const char* const begin = reinterpret_cast<const char*>(first);
+            const char* const end = reinterpret_cast<const char*>(first + count);
+            for (const char* at = begin; at < end; at += kCacheLine) hwy::Prefetch(at);
+            hwy::Prefetch(end - 1);
+        };
+        for (const std::vector<float>* axis : {&mesh.x, &mesh.y, &mesh.z}) read(axis->data() + cluster.first_vertex, cluster.vertex_count);
+        for (const std::vector<uint8_t>& corner : mesh.corner) read(corner.data() + cluster.first_triangle, cluster.triangle_count);
+        read(mesh.primitive.data() + cluster.first_triangle, cluster.triangle_count);
+    }
 
     void add(const VisibleCluster& visible) {
-        draw_ = &inputs_.draws[visible.draw];
-        draw_index_ = visible.draw;
-        mesh_ = draw_->clusters;
+        if (draw_ != &inputs_.draws[visible.draw]) begin_draw(visible.draw);
         cluster_ = &mesh_->clusters[visible.cluster];
         transform_vertices();
         const uint32_t count = cluster_->triangle_count;
         uint64_t whole = count == 64 ? ~uint64_t{0} : (uint64_t{1} << count) - 1;
         if (!visible.unclipped && find_codes()) whole &= ~set_apart(whole);
         if (whole != 0) set_up(cull(whole));
+    }
+
+    /// Whatever is set up until the next one shares this much.
+    void begin_draw(uint32_t index) {
+        draw_ = &inputs_.draws[index];
+        draw_index_ = index;
+        mesh_ = draw_->clusters;
+        for (SetupTriangle& triangle : staged_) {
+            triangle.draw = index;
+            triangle.coverage = draw_->coverage;
+            triangle.bary_over_w = nullptr;
+        }
     }
 
     HWY_INLINE void transform_vertices() {
@@ -169,12 +199,12 @@ class ClusterSetup {
         const SetupInts di;
         const SampleBox &box = grid_.sample_box(), &support = grid_.support(), &reach = grid_.reach();
         for (size_t t = 0; t < cluster_->triangle_count; ++t) {
-            for (size_t i = 0; i < 3; ++i) copy_pair(snapped_, corner(t, i), of_corner_.snapped[i], t);
+            for (size_t i = 0; i < 3; ++i) copy_pair(snapped_, corner(t, i), snapped_of_corner_[i], t);
         }
         uint64_t flat = 0, clockwise = 0, beside = 0, between_support = 0, between_samples = 0;
         for (size_t t = 0; t < cluster_->triangle_count; t += hn::Lanes(d)) {
             Int x[3], y[3];
-            for (size_t i = 0; i < 3; ++i) hn::LoadInterleaved2(di, of_corner_.snapped[i] + 2 * t, x[i], y[i]);
+            for (size_t i = 0; i < 3; ++i) hn::LoadInterleaved2(di, snapped_of_corner_[i] + 2 * t, x[i], y[i]);
             const auto delta = [&](const Int(&v)[3], size_t i) HWY_ATTR { return hn::PromoteTo(d, hn::Sub(v[i], v[0])); };
             const Double area = hn::Sub(hn::Mul(delta(x, 1), delta(y, 2)), hn::Mul(delta(x, 2), delta(y, 1)));
             flat |= setup_bits(d, hn::Eq(area, hn::Zero(d))) << t;
@@ -226,12 +256,19 @@ class ClusterSetup {
         std::memcpy(target + 2 * to, source + 2 * from, 2 * sizeof(T));
     }
 
+    /// A few at a time, so that all there is of them stays in the nearest cache beside the vertices.
     void set_up(uint64_t triangles) {
+        if (batch_.entries.size() < entry_count_ + kClusterTriangles) batch_.entries.resize(2 * (entry_count_ + kClusterTriangles));
+        while (triangles != 0) triangles = set_up_group(triangles);
+    }
+
+    /// Returns those that are left.
+    HWY_INLINE uint64_t set_up_group(uint64_t triangles) {
         const SetupDoubles d;
-        uint8_t list[64];
+        uint8_t list[kGroup];
         size_t count = 0;
-        for (uint64_t rest = triangles; rest != 0; rest &= rest - 1, ++count) {
-            const size_t t = size_t(std::countr_zero(rest));
+        for (; triangles != 0 && count < kGroup; triangles &= triangles - 1, ++count) {
+            const size_t t = size_t(std::countr_zero(triangles));
             list[count] = uint8_t(t);
             for (size_t i = 0; i < 3; ++i) {
                 const size_t v = corner(t, i);
@@ -240,10 +277,12 @@ class ClusterSetup {
                 copy_pair(depth_and_inverse_w_, v, of_corner_.depth_and_inverse_w[i], count);
             }
         }
-        if (batch_.entries.size() < entry_count_ + kClusterTriangles) batch_.entries.resize(2 * (entry_count_ + kClusterTriangles));
+        in_one_tile_ = in_no_tile_ = 0;
         for (size_t i = 0; i < count; i += hn::Lanes(d)) set_up_lanes_at(list, i, std::min(count - i, hn::Lanes(d)));
         staged_count_ = 0;
-        for (size_t i = 0; i < count; ++i) write(i, list[i]);
+        const uint32_t* const primitives = mesh_->primitive.data() + cluster_->first_triangle;
+        const uint32_t first_id = draw_->first_triangle_id;
+        for (size_t i = 0; i < count; ++i) write(i, list[i], primitives[list[i]], first_id);
         // Nobody reads them soon: past the caches.
         const hn::CappedTag<uint8_t, 64> du;
         const uint8_t* const from = reinterpret_cast<const uint8_t*>(staged_);
@@ -251,6 +290,7 @@ class ClusterSetup {
         for (size_t i = 0; i < staged_count_ * sizeof(SetupTriangle); i += hn::Lanes(du)) hn::Stream(hn::Load(du, from + i), du, to + i);
         batch_.count += uint32_t(staged_count_);
         batch_.counts.binned += staged_count_;
+        return triangles;
     }
 
     /// Triangles `at` and on of those gathered.
@@ -306,7 +346,10 @@ class ClusterSetup {
         hn::Store(slope_y, d, out_.depth_dy + at);
         hn::Store(hn::DemoteTo(df, least(depth)), df, out_.depth_min + at);
         hn::Store(hn::DemoteTo(df, most(depth)), df, out_.depth_max + at);
-        hn::Store(hn::BitCast(dw, hn::VecFromMask(d, turned)), dw, out_.turned + at);
+        const auto number = [&](auto mask, int64_t value)
+                                HWY_ATTR { return hn::And(hn::BitCast(dw, hn::VecFromMask(d, mask)), hn::Set(dw, value)); };
+        const auto arrangement = hn::Or(hn::Or(number(is_second, 1), number(is_third, 2)), number(turned, 4));
+        hn::Store(arrangement, dw, out_.arrangement + at);
         find_tiles(least(x), most(x), least(y), most(y), at);
     }
 
@@ -351,29 +394,29 @@ class ClusterSetup {
         const Double per_tile = hn::Set(d, inverse_tile_size_);
         const auto set = [&](int64_t v) HWY_ATTR { return hn::Set(d, double(v)); };
         const auto range = [&](Double low, Double high, int64_t first_offset, int64_t last_offset, int first_tile, int last_tile,
-                               int extent, int32_t* first, int32_t* last) HWY_ATTR {
+                               int extent, Double& first, Double& last) HWY_ATTR {
             const Double first_pixel = hn::Ceil(hn::Mul(hn::Sub(hn::Mul(low, two), set(last_offset)), to_pixels));
             const Double last_pixel =
                 hn::Min(hn::Floor(hn::Mul(hn::Sub(hn::Mul(high, two), set(first_offset)), to_pixels)), set(extent - 1));
             // Half a pixel keeps the quotient's rounding from the whole numbers.
             const auto tile = [&](Double pixel) HWY_ATTR { return hn::Floor(hn::Mul(hn::Add(pixel, half), per_tile)); };
             const auto none = hn::Or(hn::Gt(first_pixel, last_pixel), hn::Lt(last_pixel, hn::Zero(d)));
-            const Double begin = hn::IfThenElse(none, hn::Zero(d), hn::Max(tile(first_pixel), set(first_tile)));
-            const Double end = hn::IfThenElse(none, set(-1), hn::Min(tile(last_pixel), set(last_tile)));
-            hn::Store(hn::DemoteTo(di, begin), di, first);
-            hn::Store(hn::DemoteTo(di, end), di, last);
+            first = hn::IfThenElse(none, hn::Zero(d), hn::Max(tile(first_pixel), set(first_tile)));
+            last = hn::IfThenElse(none, set(-1), hn::Min(tile(last_pixel), set(last_tile)));
         };
-        range(x_min, x_max, reach.x_min, reach.x_max, grid_.first_x(), grid_.last_x(), grid_.width(), out_.first_column + at,
-              out_.last_column + at);
-        range(y_min, y_max, reach.y_min, reach.y_max, grid_.first_y(), grid_.last_y(), grid_.height(), out_.first_row + at,
-              out_.last_row + at);
+        Double first_column, last_column, first_row, last_row;
+        range(x_min, x_max, reach.x_min, reach.x_max, grid_.first_x(), grid_.last_x(), grid_.width(), first_column, last_column);
+        range(y_min, y_max, reach.y_min, reach.y_max, grid_.first_y(), grid_.last_y(), grid_.height(), first_row, last_row);
+        in_one_tile_ |= setup_bits(d, hn::And(hn::Eq(first_column, last_column), hn::Eq(first_row, last_row))) << at;
+        in_no_tile_ |= setup_bits(d, hn::Or(hn::Gt(first_column, last_column), hn::Gt(first_row, last_row))) << at;
+        hn::Store(hn::DemoteTo(di, hn::Add(hn::Mul(first_row, set(grid_.tiles_x())), first_column)), di, out_.first_tile + at);
     }
 
-    /// The triangle set up as number i, the cluster's triangle t.
-    HWY_INLINE void write(size_t i, size_t t) {
-        const int columns = out_.last_column[i] - out_.first_column[i], rows = out_.last_row[i] - out_.first_row[i];
-        if ((late_ >> t & 1u) != 0 || (columns | rows) < 0) {
-            ++((late_ >> t & 1u) != 0 ? batch_.counts.culled_backface : batch_.counts.culled_frustum);
+    /// The triangle set up as number i of its group, the cluster's triangle t.
+    HWY_INLINE void write(size_t i, size_t t, uint32_t primitive, uint32_t first_id) {
+        const bool late = (late_ >> t & 1u) != 0;
+        if (late || (in_no_tile_ >> i & 1u) != 0) {
+            ++(late ? batch_.counts.culled_backface : batch_.counts.culled_frustum);
             return;
         }
         SetupTriangle& to = staged_[staged_count_];
@@ -388,20 +431,15 @@ class ClusterSetup {
         to.depth_dy = out_.depth_dy[i];
         to.depth_min = out_.depth_min[i];
         to.depth_max = out_.depth_max[i];
-        to.primitive = mesh_->primitive[cluster_->first_triangle + t];
-        to.triangle_id = draw_->first_triangle_id + to.primitive;
-        to.draw = draw_index_;
-        to.coverage = draw_->coverage;
+        to.primitive = primitive;
+        to.triangle_id = first_id + primitive;
         to.front_facing = (back_ >> t & 1u) == 0;
-        to.bary_over_w = nullptr;
-        // By first corner and winding.
-        constexpr uint8_t kCorners[2][3][3] = {{{0, 1, 2}, {1, 2, 0}, {2, 0, 1}}, {{0, 2, 1}, {1, 0, 2}, {2, 1, 0}}};
-        const size_t first = size_t((out_.second[i] & 1) + (out_.third[i] & 2));
-        std::memcpy(to.corner, kCorners[out_.turned[i] & 1][first], 3);
+        // By first corner, and winding.
+        static constexpr uint8_t kCorners[8][4] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}, {}};
+        std::memcpy(to.corner, kCorners[out_.arrangement[i]], 3);
 
-        if ((columns | rows) == 0) {
-            const uint32_t tile = uint32_t(out_.first_row[i]) * uint32_t(grid_.tiles_x()) + uint32_t(out_.first_column[i]);
-            batch_.entries[entry_count_++] = {tile, index};
+        if ((in_one_tile_ >> i & 1u) != 0) {
+            batch_.entries[entry_count_++] = {uint32_t(out_.first_tile[i]), index};
         } else if (!enter_tiles(to, index)) {
             ++batch_.counts.culled_frustum;
             return;
@@ -451,32 +489,31 @@ class ClusterSetup {
     alignas(64) double depth_and_inverse_w_[2 * kVertices] = {};
     alignas(64) int32_t snapped_[2 * kVertices] = {};
     uint8_t codes_[kVertices] = {};
-    // By triangle, of each corner; gathered pair by pair, which takes less than gathering in vectors.
+    alignas(64) int32_t snapped_of_corner_[3][2 * kRoom] = {};  // by triangle, all of the cluster's
+    // By triangle of the group at hand, of each corner; gathered pair by pair, which takes less than gathering in vectors.
     struct OfCorner {
-        alignas(64) double xy[3][2 * kRoom];
-        alignas(64) double depth_and_inverse_w[3][2 * kRoom];
-        alignas(64) int32_t snapped[3][2 * kRoom];
+        alignas(64) double xy[3][2 * kGroup];
+        alignas(64) double depth_and_inverse_w[3][2 * kGroup];
+        alignas(64) int32_t snapped[3][2 * kGroup];
     } of_corner_{};
     uint64_t back_ = 0, late_ = 0;  // late: to be dropped when they are set up
     struct Lanes {
-        alignas(64) double inverse_w[3][kRoom];
-        alignas(64) double depth_at_origin[kRoom];
-        alignas(64) double depth_dx[kRoom];
-        alignas(64) double depth_dy[kRoom];
-        alignas(64) int64_t second[kRoom];
-        alignas(64) int64_t third[kRoom];
-        alignas(64) int64_t turned[kRoom];
-        alignas(64) float depth_min[kRoom];
-        alignas(64) float depth_max[kRoom];
-        alignas(64) int32_t x[3][kRoom];
-        alignas(64) int32_t y[3][kRoom];
-        alignas(64) int32_t first_column[kRoom];
-        alignas(64) int32_t last_column[kRoom];
-        alignas(64) int32_t first_row[kRoom];
-        alignas(64) int32_t last_row[kRoom];
+        alignas(64) double inverse_w[3][kGroup];
+        alignas(64) double depth_at_origin[kGroup];
+        alignas(64) double depth_dx[kGroup];
+        alignas(64) double depth_dy[kGroup];
+        alignas(64) int64_t second[kGroup];
+        alignas(64) int64_t third[kGroup];
+        alignas(64) int64_t arrangement[kGroup];
+        alignas(64) float depth_min[kGroup];
+        alignas(64) float depth_max[kGroup];
+        alignas(64) int32_t x[3][kGroup];
+        alignas(64) int32_t y[3][kGroup];
+        alignas(64) int32_t first_tile[kGroup];
     } out_{};
+    uint64_t in_one_tile_ = 0, in_no_tile_ = 0;  // bit per triangle of the group
     size_t entry_count_ = 0;
-    SetupTriangle staged_[kClusterTriangles];
+    SetupTriangle staged_[kGroup];
     size_t staged_count_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include "raster/coverage-inl.h"
 #include "raster/edge.h"
 #include "raster/small_triangle-inl.h"
+#include "raster/tile_hits-inl.h"
 #include "raster/visibility.h"
 
 #include <hwy/cache_control.h>
@@ -17,7 +18,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <limits>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -39,8 +40,6 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE V clamp_depth(D d, const SetupTriangle& triangle, V depth) {
     return hn::Min(hn::Max(depth, hn::Set(d, triangle.depth_min)), hn::Set(d, triangle.depth_max));
 }
-
-inline constexpr size_t kBoxPadding = kBlockWidth;  // so that vectors may read past the last triangle
 
 /// Of the blocks that the frame's border crosses, the pixels inside.
 inline void count_inside(const TilePass& pass, TileVisibility& out) {
@@ -76,7 +75,68 @@ class TileRasterizer {
         }
     }
 
+    /// What is tiny, opaque and asks nobody: pixels known to be covered, one after the other.
+    HWY_INLINE void draw_tiny(const TileVisibility::Hit& hit) {
+        constexpr int kSide = TileVisibility::Hit::kTiny;
+        const SetupTriangle& triangle = frame_.triangle(hit.setup_index);
+        const uint32_t first_x = uint32_t(hit.first_x), first_y = uint32_t(hit.first_y), setup_index = hit.setup_index;
+        const uint32_t across = first_x ^ uint32_t(hit.last_x), down = first_y ^ uint32_t(hit.last_y);
+        TileVisibility::Block* const blocks = out_.block.data();
+        const size_t stride = size_t(pass_.size), blocks_x = size_t(blocks_x_), first = first_y * stride + first_x;
+        const auto block_of = [&](uint32_t column, uint32_t row) { return row / kHiZWidth * blocks_x + column / kHiZWidth; };
+        TileVisibility::Block& first_block = blocks[block_of(first_x, first_y)];
+        // Most blocks still have pixels that show nothing, when small triangles come.
+        if (hiz_ && (across | down) != 0 && first_block.open == 0 && rejects(triangle, hit)) return;
+        if (hit.covered == 0) return;
+        // Bytes that are written may be anything's, so that all else is to be at hand.
+        const hn::CappedTag<double, 1> d;
+        const hn::Rebind<float, decltype(d)> df;
+        const auto depth_dx = hn::Set(d, triangle.depth_dx), depth_dy = hn::Set(d, triangle.depth_dy);
+        const auto at_origin = hn::Set(d, triangle.depth_at_origin);
+        const float depth_max = triangle.depth_max;
+        const auto least = hn::Set(df, triangle.depth_min), greatest = hn::Set(df, depth_max);
+        const auto x = hn::Set(d, from_origin_x(triangle, hit.first_x) + pass_.frame_x);
+        const auto y = hn::Set(d, from_origin_y(triangle, hit.first_y) + pass_.frame_y);
+        float* const depths = out_.depth.data();
+        uint32_t* const triangles = out_.triangle.data();
+        uint8_t* const covered = out_.covered.data();
+        const bool in_one_block = (across | down) < kHiZWidth;
+        int fresh = 0;
+        bool written = false;
+        for (uint32_t rest = hit.covered; rest != 0; rest &= rest - 1) {
+            const uint32_t bit = uint32_t(std::countr_zero(rest)), c = bit % kSide, r = bit / kSide;
+            // As depth_at() and clamp_depth() have it.
+            const auto along =
+                hn::Add(hn::Mul(depth_dx, hn::Add(x, hn::Set(d, kSteps[c]))), hn::Mul(depth_dy, hn::Add(y, hn::Set(d, kSteps[r]))));
+            const float depth = hn::GetLane(hn::Min(hn::Max(hn::DemoteTo(df, hn::Add(at_origin, along)), least), greatest));
+            const size_t at = first + r * stride + c;
+            const float so_far = depths[at];
+            if (depth < so_far || (depth == so_far && !precedes(triangle, setup_index, triangles[at]))) continue;
+            depths[at] = depth;
+            triangles[at] = setup_index;
+            const uint32_t held = covered[at / 8], pixel = 1u << at % 8;
+            covered[at / 8] = uint8_t(held | pixel);
+            fresh += (held & pixel) == 0;
+            written = true;
+            if (!in_one_block) {
+                tell_block(blocks[block_of(first_x + c, first_y + r)], std::exchange(fresh, 0), depth_max);
+                written = false;
+            }
+        }
+        if (written) tell_block(first_block, fresh, depth_max);
+    }
+
   private:
+    static constexpr double kSteps[] = {0, 1, 2, 3};
+    static_assert(std::size(kSteps) == TileVisibility::Hit::kTiny);
+
+    /// Opaque geometry was written to the block; `fresh` pixels held none before.
+    static HWY_INLINE void tell_block(TileVisibility::Block& told, int fresh, float depth_max) {
+        told.open = int16_t(told.open - fresh);
+        told.stale = true;
+        told.nearest = std::max(told.nearest, depth_max);
+    }
+
     /// Depth along the rows of a wave, in vectors.
     struct DepthLanes {
         HWY_INLINE DepthLanes(const SetupTriangle& triangle_, const TilePass& pass_, double origin_x_)
@@ -138,12 +198,7 @@ class TileRasterizer {
 
     /// Opaque, small and no wider than eight pixels, which two rows of lanes hold.
     HWY_INLINE void draw_narrow(const SetupTriangle& triangle, const TileVisibility::Hit& hit) {
-        const size_t blocks[4] = {block(hit.first_x, hit.first_y), block(hit.last_x, hit.first_y), block(hit.first_x, hit.last_y),
-                                  block(hit.last_x, hit.last_y)};
-        if (hiz_ && hit.last_y - hit.first_y <= kHiZWidth && hides_all(blocks, triangle.depth_max)) {
-            out_.hiz_rejected += uint64_t(1 + (blocks[0] != blocks[1])) * uint64_t(1 + (blocks[0] != blocks[2]));
-            return;
-        }
+        if (hiz_ && hit.last_y - hit.first_y <= kHiZWidth && rejects(triangle, hit)) return;
         const SmallTriangle covers(triangle, pass_);
         for (int column = hit.first_x & -kBlockWidth; column <= hit.last_x; column += kBlockWidth) {
             // Of those in the tile's rows, the pixels inside of the frame.
@@ -152,16 +207,12 @@ class TileRasterizer {
             // Blocks are told of what is written once all of their rows are.
             int fresh = 0;
             bool written = false;
-            const auto tell_block = [&](int row) HWY_ATTR {
-                if (!written) return;
-                TileVisibility::Block& told = out_.block[block(column, row)];
-                told.open = int16_t(told.open - std::exchange(fresh, 0));
-                told.stale = true;
-                told.nearest = std::max(told.nearest, triangle.depth_max);
-                written = false;
+            const auto tell = [&](int row) HWY_ATTR {
+                if (!std::exchange(written, false)) return;
+                tell_block(out_.block[block(column, row)], std::exchange(fresh, 0), triangle.depth_max);
             };
             covers.for_each_row(column, hit.first_y, hit.last_y, [&](int row, uint32_t covered) HWY_ATTR {
-                if (row % kHiZWidth == 0) tell_block(row - 1);
+                if (row % kHiZWidth == 0) tell(row - 1);
                 if ((covered & inside) == 0) return;
                 const uint32_t winners = draw_row(triangle, hit.setup_index, entry(column, row), row, covered & inside, depth_of);
                 uint8_t& held = out_.covered[entry(column, row) / 8];
@@ -169,8 +220,17 @@ class TileRasterizer {
                 held |= uint8_t(winners);
                 written |= winners != 0;
             });
-            tell_block(hit.last_y);
+            tell(hit.last_y);
         }
+    }
+
+    /// Whether what is drawn hides all of the blocks that the hit, no larger than one, may lie in; counts them.
+    HWY_INLINE bool rejects(const SetupTriangle& triangle, const TileVisibility::Hit& hit) {
+        const size_t blocks[4] = {block(hit.first_x, hit.first_y), block(hit.last_x, hit.first_y), block(hit.first_x, hit.last_y),
+                                  block(hit.last_x, hit.last_y)};
+        if (!hides_all(blocks, triangle.depth_max)) return false;
+        out_.hiz_rejected += uint64_t(1 + (blocks[0] != blocks[1])) * uint64_t(1 + (blocks[0] != blocks[2]));
+        return true;
     }
 
     HWY_INLINE bool hides_all(const size_t (&blocks)[4], float depth_max) {
@@ -479,79 +539,35 @@ class TileRasterizer {
     bool hiz_;
 };
 
-/// The boxes of the bin's triangles, in 1/512 pixel from the tile's upper left corner, by coordinate: the same for all samples.
-inline void find_boxes(const Frame& frame, std::span<const uint32_t> bin, const TilePass& pass, TileVisibility& out) {
-    constexpr size_t kAhead = 24;  // triangles come from memory, and a bin's may lie far apart
-    for (std::vector<int32_t>* side : {&out.box.x_min, &out.box.x_max, &out.box.y_min, &out.box.y_max})
-        side->resize(bin.size() + kBoxPadding);
-    for (size_t i = 0; i < bin.size(); ++i) {
-        if (i + kAhead < bin.size()) hwy::Prefetch(&frame.triangle(bin[i + kAhead]));
-        const SetupTriangle& t = frame.triangle(bin[i]);
-        out.box.x_min[i] = 2 * std::min({t.x[0], t.x[1], t.x[2]}) - pass.x * kSampleOne;
-        out.box.x_max[i] = 2 * std::max({t.x[0], t.x[1], t.x[2]}) - pass.x * kSampleOne;
-        out.box.y_min[i] = 2 * std::min({t.y[0], t.y[1], t.y[2]}) - pass.y * kSampleOne;
-        out.box.y_max[i] = 2 * std::max({t.y[0], t.y[1], t.y[2]}) - pass.y * kSampleOne;
-    }
-    for (size_t i = bin.size(); i < bin.size() + kBoxPadding; ++i) {
-        out.box.x_min[i] = out.box.y_min[i] = std::numeric_limits<int32_t>::max() / 2;
-        out.box.x_max[i] = out.box.y_max[i] = std::numeric_limits<int32_t>::min() / 2;
-    }
-    out.box.frame = frame.serial();
-    out.box.tile_x = pass.x / pass.size;
-    out.box.tile_y = pass.y / pass.size;
-}
-
-/// What of the bin has a sample point of this pass inside its box: few triangles of a pixel's size do.
-inline void find_hits(std::span<const uint32_t> bin, const TilePass& pass, TileVisibility& out) {
-    const RowInts d;
-    const auto set = [&](int64_t v) HWY_ATTR { return hn::Set(d, int32_t(v)); };
-    const auto zero = hn::Zero(d), last_column = set(pass.width - 1), last_row = set(pass.height - 1);
-    alignas(64) int32_t first_x[kBlockWidth], first_y[kBlockWidth], last_x[kBlockWidth], last_y[kBlockWidth];
-    out.hits.resize(bin.size());
-    size_t count = 0;
-    for (size_t i = 0; i < bin.size(); i += hn::Lanes(d)) {
-        const auto first = [&](const std::vector<int32_t>& low, int64_t offset) HWY_ATTR {
-            const auto pixel = hn::ShiftRight<kSampleBits>(hn::Add(hn::LoadU(d, low.data() + i), set(kSampleOne - 1 - offset)));
-            return hn::Max(pixel, zero);
-        };
-        const auto last = [&](const std::vector<int32_t>& high, int64_t offset)
-                              HWY_ATTR { return hn::ShiftRight<kSampleBits>(hn::Sub(hn::LoadU(d, high.data() + i), set(offset))); };
-        const auto x0 = first(out.box.x_min, pass.offset_box.x_max), y0 = first(out.box.y_min, pass.offset_box.y_max);
-        const auto x1 = hn::Min(last(out.box.x_max, pass.offset_box.x_min), last_column);
-        const auto y1 = hn::Min(last(out.box.y_max, pass.offset_box.y_min), last_row);
-        const auto width = hn::Sub(hn::LoadU(d, out.box.x_max.data() + i), hn::LoadU(d, out.box.x_min.data() + i));
-        const auto height = hn::Sub(hn::LoadU(d, out.box.y_max.data() + i), hn::LoadU(d, out.box.y_min.data() + i));
-        const uint32_t large = bits_of(d, hn::Gt(hn::Max(width, height), set(2 * SmallTriangle::kExtent)));
-        uint32_t hit = bits_of(d, hn::Not(hn::Or(hn::Gt(x0, x1), hn::Gt(y0, y1))));
-        if (hit == 0) continue;
-        hn::Store(x0, d, first_x);
-        hn::Store(y0, d, first_y);
-        hn::Store(x1, d, last_x);
-        hn::Store(y1, d, last_y);
-        for (; hit != 0; hit &= hit - 1) {
-            const size_t lane = size_t(std::countr_zero(hit));
-            out.hits[count++] = {bin[i + lane],         int16_t(first_x[lane]), int16_t(first_y[lane]),
-                                 int16_t(last_x[lane]), int16_t(last_y[lane]),  (large >> lane & 1u) == 0};
-        }
-    }
-    out.hits.resize(count);
-}
-
 template <class Coverage>
 void tile_visibility(const Frame& frame, int tile_x, int tile_y, const TileSamples& samples, Coverage&& coverage, TileVisibility& out) {
     out.reset(frame.options().tile_size);
     const std::span<const uint32_t> bin = frame.bin(tile_x, tile_y);
     if (bin.empty()) return;
     const TilePass pass(frame, tile_x, tile_y, samples);
-    if (out.box.frame != frame.serial() || out.box.tile_x != tile_x || out.box.tile_y != tile_y) find_boxes(frame, bin, pass, out);
     if (!pass.whole()) count_inside(pass, out);
     TileRasterizer rasterizer(frame, pass, out);
 
-    find_hits(bin, pass, out);
+    constexpr bool is_told = requires(const CandidateWave& opaque) { coverage.opaque(opaque); };
+    CornerFinder corners(frame, bin, pass, out);
+    HitFinder finder(bin, pass, is_told, out);
+    out.hits.clear();
     constexpr size_t kAhead = 4;  // the triangles of a bin may lie far apart in memory: far enough ahead, and not too far
-    for (size_t i = 0; i < out.hits.size(); ++i) {
-        if (i + kAhead < out.hits.size()) hwy::Prefetch(&frame.triangle(out.hits[i + kAhead].setup_index));
-        rasterizer.draw(out.hits[i], coverage);
+    for (size_t begin = 0; begin < bin.size(); begin += kHitChunk) {
+        const size_t end = std::min(begin + kHitChunk, bin.size()), first = out.hits.size();
+        corners.find(begin, end);
+        finder.find(begin, end);
+        // The next ones come from memory while these are drawn.
+        const size_t next = std::min(end + kHitChunk, bin.size());
+        for (size_t i = first, wanted = end; i < out.hits.size(); ++i, ++wanted) {
+            if (wanted < next) hwy::Prefetch(&frame.triangle(bin[wanted]));
+            if (i + kAhead < out.hits.size()) hwy::Prefetch(&frame.triangle(out.hits[i + kAhead].setup_index));
+            if (out.hits[i].tiny) {
+                rasterizer.draw_tiny(out.hits[i]);
+            } else {
+                rasterizer.draw(out.hits[i], coverage);
+            }
+        }
     }
 }
 

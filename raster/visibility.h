@@ -45,16 +45,20 @@ struct TileVisibility {
     struct Hit {
         uint32_t setup_index;
         int16_t first_x, first_y, last_x, last_y;
-        bool small;  ///< its integers fit 32 bits (raster/small_triangle-inl.h)
+        uint16_t covered;  ///< of tiny ones: bit column + kTiny*row, from the first pixel on
+        bool small;        ///< its integers fit 32 bits (raster/small_triangle-inl.h)
+        bool tiny;         ///< small, kTiny x kTiny pixels at most, and what it covers is known
+        static constexpr int kTiny = 4;
     };
     std::vector<Hit> hits;
 
-    /// Boxes of the triangles of the bin drawn last, kept for its other samples.
-    struct Boxes {
+    /// Corners of the triangles of the bin drawn last, kept for its other samples.
+    struct Corners {
         uint64_t frame = 0;  ///< Frame::serial()
         int tile_x = -1, tile_y = -1;
-        std::vector<int32_t> x_min, x_max, y_min, y_max;
-    } box;
+        size_t opaque = 0;  ///< triangles of the bin, its first ones
+        std::vector<int32_t> x[3], y[3];
+    } corners;
 
     /// Nothing visible; keeps its memory.
     void reset(int size);

@@ -18,6 +18,18 @@ void draw_tile_here(const Frame& frame, int tile_x, int tile_y, const TileSample
     tile_visibility(frame, tile_x, tile_y, samples, coverage, out);
 }
 
+struct TellingCoverage {
+    uint32_t operator()(const CandidateWave& wave) const { return coverage(wave); }
+    void opaque(const CandidateWave& wave) const { told(wave); }
+    const testing::CoveragePolicy& coverage;
+    const std::function<void(const CandidateWave&)>& told;
+};
+
+void draw_tile_telling_here(const Frame& frame, int tile_x, int tile_y, const TileSamples& samples, const testing::CoveragePolicy& coverage,
+                            const std::function<void(const CandidateWave&)>& opaque, TileVisibility& out) {
+    tile_visibility(frame, tile_x, tile_y, samples, TellingCoverage{coverage, opaque}, out);
+}
+
 void interpolate_wave_here(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y, uint32_t mask,
                            LatestPlanes& latest, BarycentricWave& out) {
     const bool same = std::all_of(offset, offset + 32, [&](const SampleOffset& o) { return o.x == offset->x && o.y == offset->y; });
@@ -33,6 +45,7 @@ HWY_AFTER_NAMESPACE();
 namespace rawtexel::raster {
 
 HWY_EXPORT(draw_tile_here);
+HWY_EXPORT(draw_tile_telling_here);
 HWY_EXPORT(interpolate_wave_here);
 
 namespace testing {
@@ -40,6 +53,11 @@ namespace testing {
 void draw_tile(const Frame& frame, int tile_x, int tile_y, const TileSamples& samples, const CoveragePolicy& coverage,
                TileVisibility& out) {
     HWY_DYNAMIC_DISPATCH(draw_tile_here)(frame, tile_x, tile_y, samples, coverage, out);
+}
+
+void draw_tile_telling(const Frame& frame, int tile_x, int tile_y, const TileSamples& samples, const CoveragePolicy& coverage,
+                       const std::function<void(const CandidateWave&)>& opaque, TileVisibility& out) {
+    HWY_DYNAMIC_DISPATCH(draw_tile_telling_here)(frame, tile_x, tile_y, samples, coverage, opaque, out);
 }
 
 void interpolate_wave(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y, uint32_t mask,

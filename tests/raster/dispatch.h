@@ -14,6 +14,9 @@ namespace rawtexel::raster::testing {
 using CoveragePolicy = std::function<uint32_t(const CandidateWave&)>;
 
 void draw_tile(const Frame& frame, int tile_x, int tile_y, const TileSamples& samples, const CoveragePolicy& coverage, TileVisibility& out);
+/// The same; `opaque` hears of opaque waves.
+void draw_tile_telling(const Frame& frame, int tile_x, int tile_y, const TileSamples& samples, const CoveragePolicy& coverage,
+                       const std::function<void(const CandidateWave&)>& opaque, TileVisibility& out);
 void interpolate_wave(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y, uint32_t mask,
                       LatestPlanes& latest, BarycentricWave& out);
 
