@@ -55,7 +55,12 @@ inline void count_inside(const TilePass& pass, TileVisibility& out) {
 class TileRasterizer {
   public:
     TileRasterizer(const Frame& frame, const TilePass& pass, TileVisibility& out)
-        : frame_(frame), pass_(pass), out_(out), blocks_x_(pass.size / kHiZWidth), hiz_(frame.options().skips.hiz) {}
+        : frame_(frame),
+          pass_(pass),
+          out_(out),
+          blocks_x_(pass.size / kHiZWidth),
+          unwritten_(out.may_leave_blocks ? out.block.size() : 0),
+          hiz_(frame.options().skips.hiz) {}
 
     template <class Coverage>
     void draw(const TileVisibility::Hit& hit, Coverage& coverage) {
@@ -79,6 +84,7 @@ class TileRasterizer {
     HWY_INLINE void draw_tiny(const TileVisibility::Hit& hit) {
         constexpr int kSide = TileVisibility::Hit::kTiny;
         const SetupTriangle& triangle = frame_.triangle(hit.setup_index);
+        write_blocks(hit);
         const uint32_t first_x = uint32_t(hit.first_x), first_y = uint32_t(hit.first_y), setup_index = hit.setup_index;
         const uint32_t across = first_x ^ uint32_t(hit.last_x), down = first_y ^ uint32_t(hit.last_y);
         TileVisibility::Block* const blocks = out_.block.data();
@@ -300,6 +306,7 @@ class TileRasterizer {
 
     /// Before single pixels of the blocks are looked at.
     HWY_INLINE void write_blocks(const TileVisibility::Hit& pixels) {
+        if (unwritten_ == 0) return;
         for (int row = pixels.first_y & -kHiZWidth; row <= pixels.last_y; row += kHiZWidth) {
             for (int column = pixels.first_x & -kHiZWidth; column <= pixels.last_x; column += kHiZWidth) {
                 TileVisibility::Block& reached = out_.block[block(column, row)];
@@ -316,6 +323,7 @@ class TileRasterizer {
         const bool empty = block.shown == kNoTriangle;
         const SetupTriangle* const triangle = empty ? nullptr : &frame_.triangle(block.shown);
         block.written = true;
+        --unwritten_;
         for (size_t i = 0; i < kHiZWidth; i += hn::Lanes(d)) {
             for (int r = row; r < row + kHiZWidth; ++r) {
                 const size_t at = entry(column, r);
@@ -536,6 +544,7 @@ class TileRasterizer {
     const TilePass& pass_;
     TileVisibility& out_;
     int blocks_x_;
+    size_t unwritten_;  ///< blocks
     bool hiz_;
 };
 

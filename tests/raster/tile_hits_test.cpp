@@ -172,6 +172,17 @@ TEST(TileHits, DrawWhatOneTriangleAtATimeDraws) {
     EXPECT_GT(rejected, 0u);
 }
 
+TEST(TileHits, AreDrawnAlikeWhereBlocksMayBeLeftUnwritten) {
+    for (const int tile_size : {64, 24, 8}) {
+        const CrowdedScene scene(5);
+        const Frame frame(frame_options(tile_size, true), scene.draws);
+        for (const int64_t set : instruction_sets()) {
+            const UseInstructionSet use(set);
+            for (const SamplePattern& pattern : sample_patterns()) expect_left_blocks_agree(frame, pattern, cover_by_hash);
+        }
+    }
+}
+
 /// Whoever hears of opaque waves gets them all, and the same picture.
 TEST(TileHits, LeaveNothingUnheard) {
     const CrowdedScene scene(4);
