@@ -40,9 +40,9 @@ HWY_NOINLINE inline void fill_constant(const MapState& map, texunit::WaveColor& 
 /// Reads the maps of `slots`, bits, which are alike; `lod` where asked for.
 HWY_INLINE void look_up_alike(const MaterialState& material, const FragmentWave& fragment, WaveMask mask, uint32_t slots, MapColors& out,
                               WaveFloat* lod) {
-    static_assert(kMapSlots <= texunit::HWY_NAMESPACE::AlikeTextures::kMost);
+    static_assert(kMapSlots <= texunit::AlikeTextures::kMost);
     const MapState& first = material.maps[size_t(std::countr_zero(slots))];
-    texunit::HWY_NAMESPACE::AlikeTextures textures;
+    texunit::AlikeTextures textures;
     for (uint32_t rest = slots; rest != 0; rest &= rest - 1) {
         const auto slot = size_t(std::countr_zero(rest));
         textures.add(*material.maps[slot].texture, out.slot[slot]);

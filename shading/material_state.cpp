@@ -42,18 +42,10 @@ bool draws_alike(const MapState& a, const MapState& b) {
     return a.coordinates == b.coordinates && a.sampler == b.sampler && same_shape;
 }
 
-/// Bilinear and trilinear lookups of words: what texunit/sample_alike-inl.h reads together.
-bool can_look_up_alike(const MapState& map) {
-    const texunit::Kernel& kernel = map.sampler.magnify;
-    return kernel == texunit::Kernel::Bilinear && map.sampler.minify == kernel && map.sampler.is_isotropic() &&
-           map.texture->texel_layout().storage == texunit::StorageClass::Packed32 && map.texture->shape().layers == 1 &&
-           map.texture->shape().depth == 1;
-}
-
 void find_alike(MaterialState& state) {
     for (int slot = 0; slot < kMapSlots; ++slot) {
         MapState& map = state.maps[size_t(slot)];
-        if (!map.texture || !can_look_up_alike(map)) continue;
+        if (!map.texture || !can_sample_alike(*map.texture, map.sampler)) continue;
         map.alike = slot;
         for (int first = slot - 1; first >= 0; --first) {
             const MapState& other = state.maps[size_t(first)];

@@ -1,10 +1,9 @@
 // One lookup for a wave on this instruction set, for vector code that already runs on it. Declared here, compiled once, in sample.cpp:
 // the stages behind it (sample_lanes-inl.h) are large.
 #include "texunit/lanes-inl.h"
+#include "texunit/sample.h"
 
 #include <hwy/highway.h>
-
-#include <cassert>
 
 // Included once per instruction set (highway's guard for -inl.h files).
 #if defined(RAWTEXEL_TEXUNIT_SAMPLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -25,23 +24,7 @@ template <class Count>
 void sample_lanes(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, Count& count, WaveColor& out,
                   WaveFloat* lod, const WaveFloat* layer = nullptr);
 
-/// Textures that differ in nothing but their texels, as the maps of a material often do, and what is read of each.
-struct AlikeTextures {
-    static constexpr int kMost = 8;
-
-    int count = 0;
-    Texture* texture[kMost];
-    WaveColor* out[kMost];
-
-    void add(Texture& another, WaveColor& to) {
-        assert(count < kMost);
-        texture[count] = &another;
-        out[count++] = &to;
-    }
-};
-
-/// sample_lanes() of every one of them, to the bit, with levels and taps chosen once. Their shapes are the same (at least one, flat, one
-/// layer), their storage is Packed32, and the sampler is isotropic and bilinear in and between levels; `mask` is not empty.
+/// sample_alike_wave.
 void sample_alike_lanes(const AlikeTextures& textures, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask,
                         WaveFloat* lod);
 

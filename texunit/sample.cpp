@@ -93,6 +93,7 @@ HWY_EXPORT(sample_volume);
 HWY_EXPORT(sample_cube);
 HWY_EXPORT(count_flat);
 HWY_EXPORT(record_flat);
+HWY_EXPORT(sample_alike_lanes);
 
 void sample_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, WaveColor& out,
                  const LookupExtras& extras) {
@@ -105,6 +106,18 @@ void sample_wave(Texture& texture, const SamplerState& sampler, const WaveCoordi
     if (counts != nullptr) return sample_wave(texture, sampler, at, mask, out, LookupExtras{.counts = counts});
     assert(texture.shape().depth == 1);
     HWY_DYNAMIC_DISPATCH(sample_plain)(texture, sampler, at, mask, out);
+}
+
+bool can_sample_alike(const Texture& texture, const SamplerState& sampler) {
+    const Shape& shape = texture.shape();
+    return sampler.magnify == Kernel::Bilinear && sampler.minify == Kernel::Bilinear && sampler.is_isotropic() &&
+           texture.texel_layout().storage == StorageClass::Packed32 && shape.layers == 1 && shape.depth == 1;
+}
+
+void sample_alike_wave(const AlikeTextures& textures, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask,
+                       WaveFloat* lod) {
+    assert(textures.count > 0 && mask != 0 && can_sample_alike(*textures.texture[0], sampler));
+    HWY_DYNAMIC_DISPATCH(sample_alike_lanes)(textures, sampler, at, mask, lod);
 }
 
 void sample_volume_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates3& at, WaveMask mask, WaveColor& out,

@@ -6,6 +6,8 @@
 #include "texunit/texture.h"
 #include "texunit/wave.h"
 
+#include <cassert>
+
 namespace rawtexel::texunit {
 
 /// Normalised coordinates and their screen-space derivatives. A coordinate that is not finite reads as 0, a derivative that is not finite
@@ -42,8 +44,30 @@ void sample_wave(Texture& texture, const SamplerState& sampler, const WaveCoordi
 void sample_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, WaveColor& out,
                  const LookupExtras& extras);
 
-/// The same for a 3-D texture: SamplerState::wrap_r wraps the third coordinate, every kernel filters along three axes, lambda follows from
-/// derivatives of three components (Vulkan "Scale Factor Operation"). Isotropic: `probes` and `ellipse` are not looked at.
+/// Textures that differ in nothing but their texels, as the maps of a material often do, and what is read of each: none of the others'.
+struct AlikeTextures {
+    static constexpr int kMost = 8;
+
+    int count = 0;
+    Texture* texture[kMost];
+    WaveColor* out[kMost];
+
+    void add(Texture& another, WaveColor& to) {
+        assert(count < kMost);
+        texture[count] = &another;
+        out[count++] = &to;
+    }
+};
+/// Whether sample_alike_wave may read the texture through the sampler: a flat one of one layer and of 32 bits a texel, through a bilinear
+/// kernel and isotropically.
+bool can_sample_alike(const Texture& texture, const SamplerState& sampler);
+/// sample_wave of each of at least one texture, all of one shape, to the bit, with levels and taps chosen once. `mask` is not 0. `lod` as
+/// in LookupExtras.
+void sample_alike_wave(const AlikeTextures& textures, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask,
+                       WaveFloat* lod = nullptr);
+
+/// sample_wave for a 3-D texture: SamplerState::wrap_r wraps the third coordinate, every kernel filters along three axes, lambda follows
+/// from derivatives of three components (Vulkan "Scale Factor Operation"). Isotropic: `probes` and `ellipse` are not looked at.
 void sample_volume_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates3& at, WaveMask mask, WaveColor& out,
                         const LookupExtras& extras = {});
 

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -327,6 +328,53 @@ TEST_P(Sample, CountsTapsOfWeightZeroNowhere) {
     EXPECT_EQ(counted(trilinear, generic, generic, 3, 0), (FetchCounts{0, 0, 0}));
     EXPECT_EQ(counted(trilinear, generic, generic, 1e9f, 1), (FetchCounts{1, 4, 4, {0, 0, 0, 0, 4}}))
         << "one level, of one texel: each tap reads it";
+}
+
+TEST_P(Sample, OfAlikeTexturesIsThatOfEachToTheBit) {
+    std::mt19937 random(11);
+    for (const int extent : {64, 37}) {
+        // Different fields of a word, and two textures that are read again: by then their blocks are there.
+        std::vector<std::unique_ptr<Texture>> together, apart;
+        for (const Format format : {Format::RGBA8Unorm, Format::RGBA8Srgb, Format::RGBA8Snorm})
+            for (auto* list : {&together, &apart})
+                list->push_back(std::make_unique<Texture>("hashed", make_hashed_pyramid(format, extent, 32)));
+        for (int round = 0; round < 300; ++round) {
+            SamplerState sampler;
+            sampler.mip = kMipModes[random() % 3];
+            sampler.wrap_s = kWraps[random() % 3];
+            sampler.wrap_t = round % 5 == 0 ? Wrap::ClampToBorder : kWraps[random() % 3];
+            sampler.lod_bias = round % 7 == 0 ? 0.7f : 0.0f;
+            sampler.precision = round % 3 == 0 ? Precision::Gpu : Precision::Exact;
+            ASSERT_TRUE(can_sample_alike(*together[0], sampler));
+            WaveCoordinates at = random_coordinates(random, extent);
+            if (round % 4 == 0) at = uniform_coordinates(at.u[0], at.v[0], 0.3f, extent, 32);
+            const WaveMask mask = round % 2 == 0 ? kWaveFull : uint32_t(random()) | 1u << random() % 32;
+            WaveColor got[3], expected[3];
+            WaveFloat lod, expected_lod;
+            AlikeTextures textures;
+            for (size_t k = 0; k < 3; ++k) textures.add(*together[k], got[k]);
+            sample_alike_wave(textures, sampler, at, mask, round % 2 == 0 ? &lod : nullptr);
+            for (size_t k = 0; k < 3; ++k) {
+                sample_wave(*apart[k], sampler, at, mask, expected[k], {.lod = k == 0 && round % 2 == 0 ? &expected_lod : nullptr});
+                for (int i = 0; i < kWaveLanes; ++i) {
+                    if ((mask >> i & 1) == 0) continue;
+                    for (int c = 0; c < 4; ++c)
+                        ASSERT_EQ(got[k].channel[c][i], expected[k].channel[c][i]) << "texture " << k << ", round " << round;
+                    if (k == 0 && round % 2 == 0) {
+                        ASSERT_EQ(lod[i], expected_lod[i]) << "round " << round;
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST_P(Sample, OfAlikeTexturesIsBilinearFlatAndOfWords) {
+    Texture words("words", make_hashed_pyramid(Format::RGBA8Unorm, 8, 8)), floats("floats", make_hashed_pyramid(Format::RGBA32Float, 8, 8));
+    EXPECT_TRUE(can_sample_alike(words, {}));
+    EXPECT_FALSE(can_sample_alike(floats, {}));
+    EXPECT_FALSE(can_sample_alike(words, {.magnify = Kernel::Nearest}));
+    EXPECT_FALSE(can_sample_alike(words, {.probes = 2}));
 }
 
 }  // namespace
