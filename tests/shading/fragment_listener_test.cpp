@@ -8,13 +8,16 @@
 #include "texunit/random.h"
 
 #include "tests/shading/scene_parts.h"
+#include "tests/texunit/hashed_source.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cstring>
 #include <functional>
 #include <map>
+#include <memory>
 #include <utility>
 
 namespace rawtexel::shading {
@@ -117,6 +120,53 @@ TEST_F(FragmentListenerTest, HearsLookupsThatTracesRepeatBitForBit) {
         watched();
         EXPECT_GT(lookups, 1000);
         EXPECT_EQ(differing, 0) << "channels of " << lookups << " lookups, precision " << to_string(precision);
+    }
+}
+
+/// Maps that differ in their texels alone are looked up together; those of another wrap, extent or place are not.
+TEST_F(FragmentListenerTest, HearsLookupsOfAlikeMapsAndOfOthersThatTracesRepeat) {
+    const auto add_words = [&](int extent) {
+        SceneTexture texture;
+        texture.texture = std::make_shared<texunit::Texture>(
+            "words", texunit::make_hashed_pyramid(texunit::Format::RGBA8Unorm, extent, 32, uint32_t(scene_.textures.size())));
+        scene_.textures.push_back(texture);
+        return int(scene_.textures.size()) - 1;
+    };
+    scene_ = {};
+    Material material;
+    for (int slot = 0; slot < kMapSlots; ++slot) material.maps[size_t(slot)].texture = add_words(slot == kOcclusion ? 32 : 64);
+    material.emission = glm::vec3(1.0f);
+    material.maps[kNormal].sampler.wrap_t = texunit::Wrap::ClampToEdge;
+    material.maps[kEmissive].uv_from_vertex = glm::mat3x2{3, 0, 0, 3, 0.25f, 0};
+    add_object(scene_, make_quad({-1, -1, 0}, {2, 0, 0}, {0, 2, -9}, {7, 5}), material);
+    options_.camera = square_camera();
+    lighting_.ambient = 1.0f;
+    for (const bool base_color : {true, false}) {
+        // Without one of the two that are alike, the other stands alone.
+        if (!base_color) scene_.materials.back().maps[kBaseColor].texture = -1;
+        std::array<int, kMapSlots> lookups{};
+        int differing = 0;
+        watcher_.on_shaded = [&](const ShadedFragments& fragments) {
+            const auto& maps = fragments.draw->material->maps;
+            EXPECT_EQ(maps[kMetallicRoughness].alike, base_color ? kBaseColor : kMetallicRoughness);
+            for (int slot = 0; slot < kMapSlots; ++slot) {
+                const MapState& map = maps[size_t(slot)];
+                if (!map.texture) continue;
+                const texunit::WaveCoordinates& at = fragments.fragment->coordinates[map.coordinates];
+                for_lanes(fragments.block.lanes & 0x10400421u, [&](int lane) {
+                    const texunit::LaneCoordinates lane_at{at.u[lane],    at.v[lane],    at.dudx[lane],
+                                                           at.dvdx[lane], at.dudy[lane], at.dvdy[lane]};
+                    const texunit::LookupTrace trace = trace_lookup(*map.texture, map.sampler, lane_at);
+                    for (size_t c = 0; c < 4; ++c) differing += trace.result[c] != fragments.maps[slot].channel[c][lane];
+                    ++lookups[size_t(slot)];
+                });
+            }
+        };
+        watched();
+        for (int slot = 0; slot < kMapSlots; ++slot) {
+            EXPECT_EQ(lookups[size_t(slot)] > 1000, base_color || slot != kBaseColor) << "map " << slot;
+        }
+        EXPECT_EQ(differing, 0);
     }
 }
 
