@@ -29,7 +29,8 @@ using RowDoubles = hn::CappedTag<double, kBlockWidth>;
 using DepthFloats = hn::Rebind<float, RowDoubles>;
 using DepthInts = hn::Rebind<int32_t, RowDoubles>;
 
-inline constexpr int kHiZWidth = 8;  // pixels along a side of a Hi-Z block: two waves, one above the other
+inline constexpr int kHiZWidth = TileVisibility::kBlockSide;  // a Hi-Z block is two waves, one above the other
+static_assert(kHiZWidth == kBlockWidth && kHiZWidth == 2 * kBlockHeight);
 inline constexpr int kBlockLanes = kBlockWidth * kBlockHeight;
 
 /// One bit per lane, of vectors of at most 8 lanes.

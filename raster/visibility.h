@@ -26,20 +26,20 @@ struct TileVisibility {
 
     /// Pixels that hold opaque geometry, eight to a byte, row by row.
     std::vector<uint8_t> covered;
-    /// Of every 8x8 block, row by row; what opaque geometry alone has written.
+    static constexpr int kBlockSide = 8;  ///< pixels
+    /// Of every block, row by row; what opaque geometry alone has written.
     struct Block {
-        float farthest = 0.0f;         ///< depth of the farthest pixel as of the last look
-        float nearest = 0.0f;          ///< no pixel is nearer
-        int16_t open = 64;             ///< pixels inside of the frame that hold none
-        bool stale = false;            ///< written since that look
-        bool written = true;           ///< the entries of its pixels hold what they show
-        uint32_t shown = kNoTriangle;  ///< until they do: what all of them show, opaque or none
+        float farthest = 0.0f;                   ///< depth of the farthest pixel as of the last look
+        float nearest = 0.0f;                    ///< no pixel is nearer
+        int16_t open = kBlockSide * kBlockSide;  ///< pixels inside of the frame that hold none
+        bool stale = false;                      ///< written since that look
+        bool written = true;                     ///< the entries of its pixels hold what they show
+        uint32_t shown = kNoTriangle;            ///< until they do: what all of them show, opaque or none
     };
     std::vector<Block> block;
     const Block& block_of(int column, int row) const {
         return block[size_t(row / kBlockSide) * size_t(tile_size / kBlockSide) + size_t(column / kBlockSide)];
     }
-    static constexpr int kBlockSide = 8;
 
     /// A triangle of the bin, and the tile's pixels with a sample point inside its box, ends included.
     struct Hit {
