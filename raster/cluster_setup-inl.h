@@ -277,7 +277,7 @@ class ClusterSetup {
                 copy_pair(depth_and_inverse_w_, v, of_corner_.depth_and_inverse_w[i], count);
             }
         }
-        in_one_tile_ = in_no_tile_ = 0;
+        in_one_tile_ = in_no_tile_ = compact_ = 0;
         for (size_t i = 0; i < count; i += hn::Lanes(d)) set_up_lanes_at(list, i, std::min(count - i, hn::Lanes(d)));
         staged_count_ = 0;
         const uint32_t* const primitives = mesh_->primitive.data() + cluster_->first_triangle;
@@ -341,6 +341,10 @@ class ClusterSetup {
             hn::Store(hn::DemoteTo(di, y[i]), di, out_.y[i] + at);
             hn::Store(inverse[i], d, out_.inverse_w[i] + at);
         }
+        const Double to_relative = hn::Div(hn::Set(d, 1.0), most(inverse));
+        for (size_t i = 0; i < 3; ++i) {
+            hn::Store(hn::DemoteTo(df, hn::Mul(inverse[i], to_relative)), df, out_.relative_inverse_w[i] + at);
+        }
         hn::Store(depth[0], d, out_.depth_at_origin + at);
         hn::Store(slope_x, d, out_.depth_dx + at);
         hn::Store(slope_y, d, out_.depth_dy + at);
@@ -350,7 +354,12 @@ class ClusterSetup {
                                 HWY_ATTR { return hn::And(hn::BitCast(dw, hn::VecFromMask(d, mask)), hn::Set(dw, value)); };
         const auto arrangement = hn::Or(hn::Or(number(is_second, 1), number(is_third, 2)), number(turned, 4));
         hn::Store(arrangement, dw, out_.arrangement + at);
-        find_tiles(least(x), most(x), least(y), most(y), at);
+        const Double x_min = least(x), x_max = most(x), y_min = least(y), y_max = most(y);
+        const Double extent = hn::Max(hn::Sub(x_max, x_min), hn::Sub(y_max, y_min));
+        const auto near_enough = hn::Le(extent, hn::Set(d, double(kCompactExtent * kSubpixelOne)));
+        const auto flat_enough = hn::Le(most(inverse), hn::Mul(least(inverse), hn::Set(d, kCompactMostW)));
+        compact_ |= setup_bits(d, hn::And(near_enough, flat_enough)) << at;
+        find_tiles(x_min, x_max, y_min, y_max, at);
     }
 
     bool precedes(size_t p, size_t q) const {
@@ -425,6 +434,7 @@ class ClusterSetup {
             to.x[k] = out_.x[k][i];
             to.y[k] = out_.y[k][i];
             to.inverse_w[k] = out_.inverse_w[k][i];
+            to.relative_inverse_w[k] = out_.relative_inverse_w[k][i];
         }
         to.depth_at_origin = out_.depth_at_origin[i];
         to.depth_dx = out_.depth_dx[i];
@@ -437,6 +447,7 @@ class ClusterSetup {
         // By first corner, and winding.
         static constexpr uint8_t kCorners[8][4] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}, {}};
         std::memcpy(to.corner, kCorners[out_.arrangement[i]], 3);
+        to.compact = (compact_ >> i & 1u) != 0;
 
         if ((in_one_tile_ >> i & 1u) != 0) {
             batch_.entries[entry_count_++] = {uint32_t(out_.first_tile[i]), index};
@@ -507,11 +518,12 @@ class ClusterSetup {
         alignas(64) int64_t arrangement[kGroup];
         alignas(64) float depth_min[kGroup];
         alignas(64) float depth_max[kGroup];
+        alignas(64) float relative_inverse_w[3][kGroup];
         alignas(64) int32_t x[3][kGroup];
         alignas(64) int32_t y[3][kGroup];
         alignas(64) int32_t first_tile[kGroup];
     } out_{};
-    uint64_t in_one_tile_ = 0, in_no_tile_ = 0;  // bit per triangle of the group
+    uint64_t in_one_tile_ = 0, in_no_tile_ = 0, compact_ = 0;  // bit per triangle of the group
     size_t entry_count_ = 0;
     SetupTriangle staged_[kGroup];
     size_t staged_count_ = 0;

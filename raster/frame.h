@@ -102,7 +102,10 @@ struct alignas(64) SetupTriangle {
     uint32_t triangle_id;  ///< scene order
     CoverageClass coverage;
     bool front_facing;
+    /// 1/w of the vertices over the largest of the three; of a whole triangle.
+    float relative_inverse_w[3];
     uint8_t corner[3];   ///< of a whole triangle: which corner of the primitive is at x[i], y[i]
+    bool compact;        ///< a whole triangle of at most kCompactExtent pixels along x and y, w at most 1 : kCompactMostW
     uint32_t draw;       ///< index into the draws
     uint32_t primitive;  ///< triangle within the draw; its vertices are indices[3*primitive + corner]
     /// Of a whole triangle: 1/w of its vertices, in the order of x and y.
@@ -110,6 +113,11 @@ struct alignas(64) SetupTriangle {
     /// Of a piece: b/w of the three corners as planes, in memory of the frame. Null for a whole triangle, whose planes follow from x and y.
     const std::array<Plane, 3>* bary_over_w;
 };
+
+/// Within this many pixels edge functions at sample points are exact in 32 bits: 2 * (64 * 256) * (64 * 512) < 2^31.
+inline constexpr int kCompactExtent = 64;
+/// Beyond this ratio of w, slopes of weights would lose digits in single precision.
+inline constexpr double kCompactMostW = 2;
 
 inline constexpr uint32_t kNoTriangle = 0xFFFFFFFFu;
 

@@ -35,21 +35,6 @@ struct InterpolationPlanes {
 };
 InterpolationPlanes interpolation_planes(const SetupTriangle& triangle);
 
-/// The planes of the frame's triangle that was asked for last: waves side by side often see the same.
-class LatestPlanes {
-  public:
-    explicit LatestPlanes(const Frame& frame) : frame_(frame) {}
-    const InterpolationPlanes& of(uint32_t setup_index) {
-        if (setup_index != latest_) planes_ = interpolation_planes(frame_.triangle(latest_ = setup_index));
-        return planes_;
-    }
-
-  private:
-    const Frame& frame_;
-    uint32_t latest_ = kNoTriangle;
-    InterpolationPlanes planes_{};
-};
-
 /// The sample points of an 8x4 block's lanes: lane i at offset[i] from its pixel's corner.
 struct BlockPoints {
     int x, y;                    ///< upper left pixel of the block
@@ -57,7 +42,9 @@ struct BlockPoints {
     bool same_offset = false;    ///< all 32 are equal, as the caller knows
 };
 
-/// 32 lanes, structure of arrays; raster/interpolate-inl.h computes it in vectors, bit-equal to `barycentrics` rounded to float.
+/// 32 lanes, structure of arrays, in single precision; raster/interpolate-inl.h computes it in vectors. At covered samples and to within
+/// a few units in the last place they are the `barycentrics` of a point within 2^-16 pixel of the sample; those of compact triangles
+/// (SetupTriangle::compact) are the sample's own.
 struct alignas(64) BarycentricWave {
     float b1[32], b2[32], db1_dx[32], db2_dx[32], db1_dy[32], db2_dy[32];
 };

@@ -68,7 +68,7 @@ class AlphaCoverage {
         if (map.texture || colored) {
             alignas(64) uint32_t setup_index[texunit::kWaveLanes];
             for (uint32_t& index : setup_index) index = candidate.setup_index;
-            const SampleBlock block{frame_, setup_index, {candidate.x, candidate.y, candidate.offset}, latest_planes_};
+            const SampleBlock block{frame_, setup_index, {candidate.x, candidate.y, candidate.offset}, latest_anchors_};
             find_barycentrics(derivatives_, block, mask, weights_);
             clamp_weights(weights_);
             if (steps_.taken()) steps_.find(block, mask, sample_, true);
@@ -167,7 +167,7 @@ class AlphaCoverage {
     TextureSteps steps_;
     uint32_t sample_ = 0;
     raster::BarycentricWave weights_{};
-    raster::LatestPlanes latest_planes_{frame_};
+    raster::LatestAnchors latest_anchors_{frame_};
     texunit::WaveCoordinates coordinates_[kMapSlots]{};
     texunit::WaveColor maps_[kMapSlots]{};
     MaterialTaps taps_;

@@ -285,7 +285,7 @@ class DemandedLookups {
     }
 
     void find_weights() {
-        const SampleBlock block{frame_, asking_.setup_index, {wave_.x, wave_.y, offset_}, latest_planes_};
+        const SampleBlock block{frame_, asking_.setup_index, {wave_.x, wave_.y, offset_}, latest_anchors_};
         find_barycentrics(inputs_.derivatives, block, asking_.base_color, weights_);
         const bool layered = asking_.draw->material->material->alpha_mode != AlphaMode::Opaque;
         if (steps_.taken()) steps_.find(block, asking_.base_color, wave_.sample, layered);
@@ -311,7 +311,7 @@ class DemandedLookups {
     alignas(64) uint32_t triangle_[texunit::kWaveLanes];  ///< one of them, for all lanes
     alignas(64) raster::SampleOffset offset_[texunit::kWaveLanes];
     raster::BarycentricWave weights_{};
-    raster::LatestPlanes latest_planes_{frame_};
+    raster::LatestAnchors latest_anchors_{frame_};
     texunit::WaveCoordinates coordinates_[kMapSlots]{};
     MaterialTaps taps_;
     uint32_t begun_ = 0;  ///< one bit a map whose draws have begun

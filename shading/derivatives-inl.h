@@ -21,7 +21,7 @@ struct SampleBlock {
     const raster::Frame& frame;
     const uint32_t* setup_index;
     raster::BlockPoints points;
-    raster::LatestPlanes& latest;  ///< of the frame; lasts from block to block
+    raster::LatestAnchors& latest;  ///< of the frame; lasts from block to block
 };
 
 /// Barycentrics of every lane's triangle at pixel (column, row) of the lane's 2x2 quad, where the lane's own offset puts the sample.

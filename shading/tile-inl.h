@@ -312,7 +312,7 @@ class TileRenderer {
     bool wants_shape(const Material& material) const { return !material.unlit || planes_.keeps_layers() || watched(); }
 
     SampleBlock sample_block() {
-        return {frame_, wave_.setup_index, {wave_.x, wave_.y, wave_.offset, inputs_.pixel_jitter == PixelJitter::Frame}, latest_planes_};
+        return {frame_, wave_.setup_index, {wave_.x, wave_.y, wave_.offset, inputs_.pixel_jitter == PixelJitter::Frame}, latest_anchors_};
     }
 
     void find_fragment(const DrawState& draw, const DrawLanes& seen, const PlaneLanes* planes = nullptr) {
@@ -546,7 +546,7 @@ class TileRenderer {
     bool in_branch_ = false;  ///< what is shaded is blended with other branches
     // Lanes that nobody asked for are computed along with their neighbours, so they hold numbers from the start.
     PixelWave wave_{};
-    raster::LatestPlanes latest_planes_{frame_};
+    raster::LatestAnchors latest_anchors_{frame_};
     raster::BarycentricWave weights_{};
     FragmentWave fragment_{};
     MapColors maps_{};

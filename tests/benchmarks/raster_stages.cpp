@@ -32,7 +32,7 @@ uint64_t covered_samples_here(const Frame& frame, uint32_t count, const TileSamp
 void interpolate_tile_here(const Frame& frame, const uint32_t* setup_index, stages::Derivatives derivatives, BarycentricWave& out) {
     SampleOffset offset[32];
     for (SampleOffset& one : offset) one = {129, 385};
-    LatestPlanes latest(frame);
+    LatestAnchors latest(frame);
     for (int y = 0; y < 64; y += kBlockHeight)
         for (int x = 0; x < 64; x += kBlockWidth) {
             if (derivatives == stages::Derivatives::Analytic) {

@@ -31,7 +31,7 @@ void draw_tile_telling_here(const Frame& frame, int tile_x, int tile_y, const Ti
 }
 
 void interpolate_wave_here(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y, uint32_t mask,
-                           LatestPlanes& latest, BarycentricWave& out) {
+                           LatestAnchors& latest, BarycentricWave& out) {
     const bool same = std::all_of(offset, offset + 32, [&](const SampleOffset& o) { return o.x == offset->x && o.y == offset->y; });
     barycentric_wave(frame, setup_index, {x, y, offset, same}, mask, latest, out);
 }
@@ -61,7 +61,7 @@ void draw_tile_telling(const Frame& frame, int tile_x, int tile_y, const TileSam
 }
 
 void interpolate_wave(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y, uint32_t mask,
-                      LatestPlanes& latest, BarycentricWave& out) {
+                      LatestAnchors& latest, BarycentricWave& out) {
     HWY_DYNAMIC_DISPATCH(interpolate_wave_here)(frame, setup_index, offset, x, y, mask, latest, out);
 }
 

@@ -1,6 +1,7 @@
 // The vector doors of raster, callable from tests on every instruction set of this machine.
 #pragma once
 
+#include "raster/anchor.h"
 #include "raster/interpolate.h"
 #include "raster/visibility.h"
 
@@ -18,7 +19,7 @@ void draw_tile(const Frame& frame, int tile_x, int tile_y, const TileSamples& sa
 void draw_tile_telling(const Frame& frame, int tile_x, int tile_y, const TileSamples& samples, const CoveragePolicy& coverage,
                        const std::function<void(const CandidateWave&)>& opaque, TileVisibility& out);
 void interpolate_wave(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y, uint32_t mask,
-                      LatestPlanes& latest, BarycentricWave& out);
+                      LatestAnchors& latest, BarycentricWave& out);
 
 /// Instruction sets built and supported here, scalar included.
 std::vector<int64_t> instruction_sets();

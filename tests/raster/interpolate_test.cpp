@@ -1,4 +1,4 @@
-// Weights and derivatives, held against quadruple precision; the wave held against the scalar bit for bit.
+// Weights and derivatives, held against quadruple precision.
 #include "raster/interpolate.h"
 #include "tests/raster/drawing.h"
 #include "tests/raster/scenes.h"
@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace rawtexel::raster {
 namespace {
@@ -235,57 +234,6 @@ TEST(Interpolation, LeavesTheVerticesRangeOnPiecesByNoMoreThanSnappingMoves) {
     EXPECT_GT(samples, 10000u);
     tell_tested(samples, "interpolated samples");
     tell_worst_case("weights_below_zero", outside);
-}
-
-bool same_bits(const BarycentricWave& p, const BarycentricWave& q) { return std::memcmp(&p, &q, sizeof(p)) == 0; }
-
-/// What the wave must hold, from the scalar.
-BarycentricWave expected_wave(const Frame& frame, const uint32_t* setup_index, const SampleOffset* offset, int x, int y, uint32_t mask) {
-    BarycentricWave wave{};
-    for (int lane = 0; lane < 32; ++lane) {
-        if ((mask >> lane & 1u) == 0) continue;
-        const Barycentrics at =
-            barycentrics(frame.triangle(setup_index[lane]), x + lane % 8 + offset[lane].x / 512.0, y + lane / 8 + offset[lane].y / 512.0);
-        wave.b1[lane] = float(at.b1);
-        wave.b2[lane] = float(at.b2);
-        wave.db1_dx[lane] = float(at.db1_dx);
-        wave.db2_dx[lane] = float(at.db2_dx);
-        wave.db1_dy[lane] = float(at.db1_dy);
-        wave.db2_dy[lane] = float(at.db2_dy);
-    }
-    return wave;
-}
-
-TEST(Interpolation, OfAWaveEqualsTheScalarBitForBitOnEveryInstructionSet) {
-    const MixedScene scene(6, 200);
-    const Frame frame(square_frame(kSize), scene.draws);
-    ASSERT_GT(frame.counts().clipped, 0u);
-    LatestPlanes latest(frame);
-    std::mt19937 random(7);
-    for (int round = 0; round < 400; ++round) {
-        uint32_t setup_index[32];
-        SampleOffset offset[32];
-        const uint32_t distinct = uint32_t(1 + random() % 5), base = uint32_t(random());
-        uint32_t mask = round % 3 == 0 ? 0xFFFFFFFFu : uint32_t(random()) & uint32_t(random());
-        if (round == 1) mask = 0;
-        for (int lane = 0; lane < 32; ++lane) {
-            setup_index[lane] = (base + uint32_t(random()) % distinct * 31) % frame.triangle_count();
-            // What is outside the mask must not even be looked at.
-            if ((mask >> lane & 1u) == 0) setup_index[lane] = kNoTriangle;
-            // One offset for all, as one jitter of a frame has it, or one for each.
-            offset[lane] =
-                lane > 0 && round % 4 < 2 ? offset[0] : SampleOffset{int32_t(random() % 1024) - 256, int32_t(random() % 1024) - 256};
-        }
-        const int x = int(random() % 8) * 8, y = int(random() % 16) * 4;
-        const BarycentricWave expected = expected_wave(frame, setup_index, offset, x, y, mask);
-        for (const int64_t set : instruction_sets()) {
-            const UseInstructionSet use(set);
-            BarycentricWave got;
-            std::memset(&got, 0xFF, sizeof(got));
-            interpolate_wave(frame, setup_index, offset, x, y, mask, latest, got);
-            ASSERT_TRUE(same_bits(got, expected)) << name_of(set) << ", round " << round << ", mask " << mask;
-        }
-    }
 }
 
 }  // namespace
