@@ -7,6 +7,7 @@
 #endif
 
 #include "raster/edge.h"
+#include "raster/lanes-inl.h"
 #include "raster/tile_grid.h"
 #include "raster/visibility.h"
 
@@ -136,7 +137,7 @@ class TriangleCoverage {
             edge_[e] = TileEdge(edge_of(triangle, e), pass);
             frame_term_[e] = int64_t{edge_[e].dx} * pass.samples.frame.y - int64_t{edge_[e].dy} * pass.samples.frame.x;
             for (size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) {
-                hn::Store(hn::Mul(hn::Iota(d, int32_t(i)), hn::Set(d, -edge_[e].dy)), d, column_step_[e] + i);
+                hn::Store(hn::Mul(numbers_from(d, int32_t(i)), hn::Set(d, -edge_[e].dy)), d, column_step_[e] + i);
             }
         }
     }
@@ -193,7 +194,7 @@ class TriangleCoverage {
             for (size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) {
                 hn::Vec<DepthInts> offset_x, offset_y;
                 hn::LoadInterleaved2(di, &offsets[i].x, offset_x, offset_y);
-                const auto pixel_x = hn::Mul(hn::Iota(d, double(i)), hn::Set(d, double(kSampleOne)));
+                const auto pixel_x = hn::Mul(numbers_from(d, double(i)), hn::Set(d, double(kSampleOne)));
                 const auto x = hn::Add(hn::PromoteTo(d, offset_x), pixel_x), y = hn::PromoteTo(d, offset_y);
                 auto inside = hn::Ge(x, x);
                 for (int e = 0; e < 3; ++e) {

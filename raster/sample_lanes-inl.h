@@ -7,6 +7,7 @@
 #endif
 
 #include "raster/interpolate.h"
+#include "raster/lanes-inl.h"
 
 #include <hwy/highway.h>
 
@@ -34,20 +35,10 @@ HWY_INLINE void sample_points(const BlockPoints& points, size_t lane, LaneInts& 
     } else {
         hn::LoadInterleaved2(d, &points.offset[lane].x, offset_x, offset_y);
     }
-    const LaneInts number = hn::Iota(d, int32_t(lane));
+    const LaneInts number = numbers_from(d, int32_t(lane));
     const LaneInts column = hn::And(number, hn::Set(d, kBlockWidth - 1)), row = hn::ShiftRight<3>(number);
     x = hn::Add(hn::ShiftLeft<kSampleBits>(hn::Add(column, hn::Set(d, points.x - origin_x))), offset_x);
     y = hn::Add(hn::ShiftLeft<kSampleBits>(hn::Add(row, hn::Set(d, points.y - origin_y))), offset_y);
-}
-
-/// One bit per lane.
-template <class D, class M>
-HWY_INLINE uint32_t lane_bits(D d, M mask) {
-    alignas(8) uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, mask, bits);
-    uint32_t some;
-    hwy::CopyBytes<4>(bits, &some);
-    return hn::Lanes(d) >= 32 ? some : some & ((1u << hn::Lanes(d)) - 1);
 }
 
 /// Lanes whose triangle is `index`.

@@ -88,7 +88,7 @@ class SmallTriangle {
     HWY_INLINE hn::Vec<RowInts> edge_lanes(int e, size_t i, int32_t x, int32_t y) const {
         const RowInts d;
         const int32_t first = (dx_[e] * (y - y_[e]) - dy_[e] * (x - x_[e]) - bias_[e]) >> kSampleBits;
-        return hn::Sub(hn::Set(d, first), hn::Mul(hn::Iota(d, int32_t(i)), hn::Set(d, dy_[e])));
+        return hn::Sub(hn::Set(d, first), hn::Mul(numbers_from(d, int32_t(i)), hn::Set(d, dy_[e])));
     }
 
     HWY_INLINE uint32_t wave_of_frame_offset(int column, int row, int begin, int end) const {
@@ -116,7 +116,7 @@ class SmallTriangle {
             for (size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) {
                 hn::Vec<RowInts> x, y;
                 hn::LoadInterleaved2(d, &offsets[i].x, x, y);
-                x = hn::Add(x, hn::Mul(hn::Iota(d, column + int32_t(i)), hn::Set(d, kSampleOne)));
+                x = hn::Add(x, hn::Mul(numbers_from(d, column + int32_t(i)), hn::Set(d, kSampleOne)));
                 y = hn::Add(y, hn::Set(d, (row + r) * kSampleOne));
                 const auto edge = [&](int e) HWY_ATTR {
                     const auto along_y = hn::Mul(hn::Set(d, dx_[e]), hn::Sub(y, hn::Set(d, y_[e])));

@@ -152,7 +152,7 @@ class TileRasterizer {
             const RowDoubles d;
             if (pass.samples.per_pixel != nullptr) return;
             for (size_t i = 0; i < kBlockWidth; i += hn::Lanes(d)) {
-                const auto x = hn::Add(hn::Iota(d, origin_x + double(i)), hn::Set(d, pass.frame_x));
+                const auto x = hn::Add(numbers_from(d, origin_x + double(i)), hn::Set(d, pass.frame_x));
                 hn::Store(hn::Mul(hn::Set(d, triangle.depth_dx), x), d, along_x + i);
             }
         }
@@ -169,7 +169,7 @@ class TileRasterizer {
             const auto to_pixels = hn::Set(d, 1.0 / kSampleOne);
             hn::Vec<DepthInts> offset_x, offset_y;
             hn::LoadInterleaved2(di, &pass.samples.per_pixel[pixel + i].x, offset_x, offset_y);
-            const auto x = hn::Add(hn::Iota(d, origin_x + double(i)), hn::Mul(hn::PromoteTo(d, offset_x), to_pixels));
+            const auto x = hn::Add(numbers_from(d, origin_x + double(i)), hn::Mul(hn::PromoteTo(d, offset_x), to_pixels));
             const auto y = hn::Add(hn::Set(d, origin_y), hn::Mul(hn::PromoteTo(d, offset_y), to_pixels));
             return clamp_depth(df, triangle, hn::DemoteTo(df, depth_at(d, triangle, x, y)));
         }

@@ -69,6 +69,16 @@ HWY_INLINE V fused_multiply_add(V a, V b, V c) {
 #endif
 }
 
+/// a*b - product, rounded once.
+template <class V>
+HWY_INLINE V product_rest(V a, V b, V product) {
+#if HWY_TARGET == HWY_SCALAR || RAWTEXEL_TWO_ROUNDINGS
+    return fused_multiply_add(a, b, hn::Neg(product));
+#else
+    return hn::MulSub(a, b, product);
+#endif
+}
+
 /// c - a*b, rounded once.
 template <class V>
 HWY_INLINE V fused_negative_multiply_add(V a, V b, V c) {
@@ -95,7 +105,7 @@ HWY_INLINE V lerp_unbounded(V t, V a, V b) {
 template <class V>
 HWY_INLINE void two_product(V a, V b, V& high, V& low) {
     high = hn::Mul(a, b);
-    low = fused_multiply_add(a, b, hn::Neg(high));
+    low = product_rest(a, b, high);
 }
 
 /// Nearest integer, ties to even, for |v| <= 2^22. By addition: highway's scalar Round does not round 0.49999997 to 0.

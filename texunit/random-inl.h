@@ -42,12 +42,12 @@ HWY_INLINE hn::Vec<hn::Rebind<float, D>> unit_float_v(D, V bits) {
 /// Columns and rows of lanes i .. of a wave whose first pixel is (x, y).
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V columns_v(D d, uint32_t x, size_t i) {
-    return hn::Add(hn::Set(d, x), hn::And(hn::Iota(d, uint32_t(i)), hn::Set(d, kWaveWidth - 1)));
+    return hn::Add(hn::Set(d, x), hn::And(hn::Add(hn::Iota(d, 0u), hn::Set(d, uint32_t(i))), hn::Set(d, kWaveWidth - 1)));
 }
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V rows_v(D d, uint32_t y, size_t i) {
     static_assert(kWaveWidth == 1 << 3);
-    return hn::Add(hn::Set(d, y), hn::ShiftRight<3>(hn::Iota(d, uint32_t(i))));
+    return hn::Add(hn::Set(d, y), hn::ShiftRight<3>(hn::Add(hn::Iota(d, 0u), hn::Set(d, uint32_t(i)))));
 }
 
 /// The numbers of a wave whose first pixel is (x, y).

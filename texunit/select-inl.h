@@ -63,8 +63,12 @@ inline constexpr float kFarthestCoordinate = 80.0f;
 template <EdgeRule rule, class V>
 HWY_INLINE V reduce_range(V coordinate) {
     const hn::DFromV<V> d;
+    if constexpr (rule == EdgeRule::Repeat || rule == EdgeRule::RepeatBits) {
+        // What is not finite leaves no number.
+        const V part = hn::Sub(coordinate, hn::Trunc(coordinate));
+        return hn::IfThenElseZero(hn::Eq(part, part), part);
+    }
     const V u = hn::IfThenElseZero(hn::IsFinite(coordinate), coordinate);
-    if constexpr (rule == EdgeRule::Repeat || rule == EdgeRule::RepeatBits) return hn::Sub(u, hn::Trunc(u));
     if constexpr (rule == EdgeRule::MirroredRepeat) {
         return hn::Sub(u, hn::Mul(hn::Set(d, 2.0f), hn::Trunc(hn::Mul(u, hn::Set(d, 0.5f)))));
     }
@@ -118,10 +122,8 @@ HWY_INLINE V nearest_texel(V remainder) {
 template <class V>
 HWY_INLINE void split_between_centres(V remainder, V& first, V& fraction) {
     const hn::DFromV<V> d;
-    const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-    const V raised = hn::Add(remainder, hn::Set(d, 0.5f));
-    const V step = hn::Sub(hn::IfThenElseZero(raised >= one, one), hn::IfThenElseZero(raised < zero, one));
-    first = hn::Sub(step, one);
+    const V raised = hn::Add(remainder, hn::Set(d, 0.5f)), step = hn::Floor(raised);
+    first = hn::Sub(step, hn::Set(d, 1.0f));
     fraction = hn::Min(hn::Sub(raised, step), hn::Set(d, 1.0f - 0x1p-24f));
 }
 
@@ -185,43 +187,34 @@ HWY_INLINE hn::Mask<hn::DFromV<V>> beyond_edges(V index, V extent) {
     return hn::Or(index < hn::Zero(hn::DFromV<V>()), hn::Not(index < extent));
 }
 
-/// Taps along one axis. `nearest`: lanes that take one texel, embedded in a wider kernel with fraction 0. `outside` gets the lanes beyond
-/// the edges where the rule can leave.
+/// Taps along one axis. `outside` gets the lanes beyond the edges where the rule can leave.
 template <EdgeRule rule, int W>
 HWY_NOINLINE void select_axis_as(const WaveFloat& coordinate, const std::array<int32_t, 16>& extents, const WaveInt& level,
-                                 WaveMask nearest, WaveInt (&index)[W], WaveFloat& fraction, const CoordinateReading& reading,
-                                 WaveMask (&outside)[W]) {
+                                 WaveInt (&index)[W], WaveFloat& fraction, const CoordinateReading& reading, WaveMask (&outside)[W]) {
     const FloatTag d;
     const IntTag di;
-    const auto zero = hn::Zero(d);
     if constexpr (can_leave(rule)) std::fill(outside, outside + W, WaveMask{0});
     for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
         const auto extent = look_up_level(di, extents, hn::Load(di, level.lane + i));
-        hn::Vec<FloatTag> integer, remainder;
+        hn::Vec<FloatTag> integer, remainder, first, part;
         locate<rule>(coordinate, reading, hn::ConvertTo(d, extent), i, integer, remainder);
-
-        auto first = nearest_texel(remainder);
-        if constexpr (W == 2) {
-            const auto single = lanes_of(d, nearest, i);
-            hn::Vec<FloatTag> before, part;
-            split_between_centres(remainder, before, part);
-            first = hn::IfThenElse(single, first, before);
-            hn::Store(hn::IfThenElse(single, zero, part), d, fraction.lane + i);
+        if constexpr (W == 1) {
+            first = nearest_texel(remainder);
+        } else {
+            split_between_centres(remainder, first, part);
+            hn::Store(part, d, fraction.lane + i);
         }
 
         auto start = small_to_int(hn::Add(integer, first));
-        if constexpr (rule == EdgeRule::CubeEdge) {
-            // One texel never leaves the face: a coordinate of 1 belongs to the last.
-            const auto single = hn::RebindMask(di, W == 1 ? hn::FirstN(d, hn::Lanes(d)) : lanes_of(d, nearest, i));
-            start = hn::IfThenElse(single, limit_index<EdgeRule::ClampToEdge>(start, extent), start);
-        }
+        // One texel never leaves the face: a coordinate of 1 belongs to the last.
+        if constexpr (W == 1 && rule == EdgeRule::CubeEdge) start = limit_index<EdgeRule::ClampToEdge>(start, extent);
         hn::Vec<IntTag> indices[W];
         wrap_indices<rule>(start, extent, indices);
         if constexpr (can_leave(rule)) {
             for (int k = 0; k < W; ++k) outside[k] |= wave_mask(di, beyond_edges(hn::Add(start, hn::Set(di, k)), extent), i);
         }
         if constexpr (W == 2) {
-            const auto unused = hn::RebindMask(di, hn::Eq(hn::Load(d, fraction.lane + i), zero));
+            const auto unused = hn::RebindMask(di, hn::Eq(part, hn::Zero(d)));
             indices[1] = hn::IfThenElse(unused, indices[0], indices[1]);
             if constexpr (can_leave(rule)) {
                 const WaveMask repeating = wave_mask(di, unused, i);
@@ -229,6 +222,23 @@ HWY_NOINLINE void select_axis_as(const WaveFloat& coordinate, const std::array<i
             }
         }
         for (int k = 0; k < W; ++k) hn::Store(indices[k], di, index[k].lane + i);
+    }
+}
+
+/// Lanes `nearest` of two taps along an axis take one texel, embedded in the wider kernel with fraction 0.
+template <EdgeRule rule>
+HWY_NOINLINE void take_nearest(const WaveFloat& coordinate, const std::array<int32_t, 16>& extents, const WaveInt& level, WaveMask nearest,
+                               WaveInt (&index)[2], WaveFloat& fraction, const CoordinateReading& reading, WaveMask (&outside)[2]) {
+    WaveInt single[1];
+    WaveMask single_outside[1];
+    select_axis_as<rule>(coordinate, extents, level, single, fraction, reading, single_outside);
+    for (WaveMask rest = nearest; rest != 0; rest &= rest - 1) {
+        const int lane = std::countr_zero(rest);
+        index[0][lane] = index[1][lane] = single[0][lane];
+        fraction[lane] = 0.0f;
+    }
+    if constexpr (can_leave(rule)) {
+        for (WaveMask& lanes : outside) lanes = (lanes & ~nearest) | (single_outside[0] & nearest);
     }
 }
 
@@ -251,14 +261,17 @@ HWY_INLINE auto with_rule(EdgeRule rule, const Act& act) {
     }
 }
 
-/// Returns whether some lane's tap is beyond an edge; `outside` is set only then.
+/// `nearest`: lanes that take one texel. Returns whether some lane's tap is beyond an edge; `outside` is set only then.
 template <int W>
 HWY_INLINE bool select_axis(EdgeRule rule, const WaveFloat& coordinate, const std::array<int32_t, 16>& extents, const WaveInt& level,
                             WaveMask nearest, WaveInt (&index)[W], WaveFloat& fraction, const CoordinateReading& reading,
                             WaveMask (&outside)[W]) {
     return with_rule(cheapest_rule(rule, extents), [&](auto constant) HWY_ATTR {
         constexpr EdgeRule kRule = decltype(constant)::value;
-        select_axis_as<kRule>(coordinate, extents, level, nearest, index, fraction, reading, outside);
+        select_axis_as<kRule>(coordinate, extents, level, index, fraction, reading, outside);
+        if constexpr (W == 2) {
+            if (HWY_UNLIKELY(nearest != 0)) take_nearest<kRule>(coordinate, extents, level, nearest, index, fraction, reading, outside);
+        }
         if constexpr (!can_leave(kRule)) return false;
         return std::any_of(outside, outside + W, [](WaveMask lanes) { return lanes != 0; });
     });
