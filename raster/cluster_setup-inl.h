@@ -340,10 +340,7 @@ class ClusterSetup {
             hn::Store(hn::DemoteTo(di, x[i]), di, out_.x[i] + at);
             hn::Store(hn::DemoteTo(di, y[i]), di, out_.y[i] + at);
             hn::Store(inverse[i], d, out_.inverse_w[i] + at);
-        }
-        const Double to_relative = hn::Div(hn::Set(d, 1.0), most(inverse));
-        for (size_t i = 0; i < 3; ++i) {
-            hn::Store(hn::DemoteTo(df, hn::Mul(inverse[i], to_relative)), df, out_.relative_inverse_w[i] + at);
+            hn::Store(hn::DemoteTo(df, inverse[i]), df, out_.rounded_inverse_w[i] + at);
         }
         hn::Store(depth[0], d, out_.depth_at_origin + at);
         hn::Store(slope_x, d, out_.depth_dx + at);
@@ -357,8 +354,10 @@ class ClusterSetup {
         const Double x_min = least(x), x_max = most(x), y_min = least(y), y_max = most(y);
         const Double extent = hn::Max(hn::Sub(x_max, x_min), hn::Sub(y_max, y_min));
         const auto near_enough = hn::Le(extent, hn::Set(d, double(kCompactExtent * kSubpixelOne)));
-        const auto flat_enough = hn::Le(most(inverse), hn::Mul(least(inverse), hn::Set(d, kCompactMostW)));
-        compact_ |= setup_bits(d, hn::And(near_enough, flat_enough)) << at;
+        const Double farthest = least(inverse), nearest = most(inverse);
+        const auto flat_enough = hn::Le(nearest, hn::Mul(farthest, hn::Set(d, kCompactMostW)));
+        const auto within = hn::And(hn::Ge(farthest, hn::Set(d, 1 / kCompactInverseW)), hn::Le(nearest, hn::Set(d, kCompactInverseW)));
+        compact_ |= setup_bits(d, hn::And(near_enough, hn::And(flat_enough, within))) << at;
         find_tiles(x_min, x_max, y_min, y_max, at);
     }
 
@@ -434,7 +433,7 @@ class ClusterSetup {
             to.x[k] = out_.x[k][i];
             to.y[k] = out_.y[k][i];
             to.inverse_w[k] = out_.inverse_w[k][i];
-            to.relative_inverse_w[k] = out_.relative_inverse_w[k][i];
+            to.rounded_inverse_w[k] = out_.rounded_inverse_w[k][i];
         }
         to.depth_at_origin = out_.depth_at_origin[i];
         to.depth_dx = out_.depth_dx[i];
@@ -518,7 +517,7 @@ class ClusterSetup {
         alignas(64) int64_t arrangement[kGroup];
         alignas(64) float depth_min[kGroup];
         alignas(64) float depth_max[kGroup];
-        alignas(64) float relative_inverse_w[3][kGroup];
+        alignas(64) float rounded_inverse_w[3][kGroup];
         alignas(64) int32_t x[3][kGroup];
         alignas(64) int32_t y[3][kGroup];
         alignas(64) int32_t first_tile[kGroup];

@@ -21,7 +21,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Some lanes' triangles: positions in the order of coverage, 1/256 pixel, and what stands at them.
 struct CompactTriangles {
     LaneInts x[3], y[3];
-    LaneFloats relative_inverse_w[3];
+    LaneFloats inverse_w[3];
     LaneInts kind;  ///< byte k: the primitive's corner at position k; byte 3: whether the triangle is compact
 };
 
@@ -33,9 +33,9 @@ class CompactRecords {
         static_assert(offsetof(SetupTriangle, y) == offsetof(SetupTriangle, x) + 12);
         std::memcpy(positions_ + 4 * lane, bytes + offsetof(SetupTriangle, x), 16);
         std::memcpy(more_positions_ + 4 * lane, bytes + offsetof(SetupTriangle, x) + 8, 16);
-        static_assert(offsetof(SetupTriangle, corner) == offsetof(SetupTriangle, relative_inverse_w) + 12);
+        static_assert(offsetof(SetupTriangle, corner) == offsetof(SetupTriangle, rounded_inverse_w) + 12);
         static_assert(offsetof(SetupTriangle, compact) == offsetof(SetupTriangle, corner) + 3);
-        std::memcpy(shapes_ + 4 * lane, bytes + offsetof(SetupTriangle, relative_inverse_w), 16);
+        std::memcpy(shapes_ + 4 * lane, bytes + offsetof(SetupTriangle, rounded_inverse_w), 16);
     }
     HWY_INLINE CompactTriangles at(size_t lane) const {
         const LaneIntTag di;
@@ -45,7 +45,7 @@ class CompactRecords {
         hn::LoadInterleaved4(di, positions_ + 4 * lane, t.x[0], t.x[1], t.x[2], t.y[0]);
         hn::LoadInterleaved4(di, more_positions_ + 4 * lane, again_x, again_y, t.y[1], t.y[2]);
         hn::LoadInterleaved4(di, shapes_ + 4 * lane, w[0], w[1], w[2], t.kind);
-        for (int i = 0; i < 3; ++i) t.relative_inverse_w[i] = hn::BitCast(df, w[i]);
+        for (int i = 0; i < 3; ++i) t.inverse_w[i] = hn::BitCast(df, w[i]);
         return t;
     }
 
@@ -65,7 +65,7 @@ class CompactTriangle {
         for (int i = 0; i < 3; ++i) {
             t.x[i] = hn::Set(di, triangle_.x[i]);
             t.y[i] = hn::Set(di, triangle_.y[i]);
-            t.relative_inverse_w[i] = hn::Set(LaneFloatTag(), triangle_.relative_inverse_w[i]);
+            t.inverse_w[i] = hn::Set(LaneFloatTag(), triangle_.rounded_inverse_w[i]);
         }
         t.kind = hn::Set(di, kind);
         return t;
@@ -91,9 +91,9 @@ HWY_INLINE void compact_lanes(const CompactTriangles& triangle, LaneInts point_x
         const int j = i == 2 ? 0 : i + 1, k = j == 2 ? 0 : j + 1;
         const LaneInts dx = hn::Sub(triangle.x[k], triangle.x[j]), dy = hn::Sub(triangle.y[j], triangle.y[k]);
         const LaneInts edge = hn::Add(hn::Mul(dx, from_y[j]), hn::Mul(dy, from_x[j]));
-        over_w[i] = hn::Mul(hn::ConvertTo(df, edge), triangle.relative_inverse_w[i]);
-        slope_x[i] = hn::Mul(hn::ConvertTo(df, dy), triangle.relative_inverse_w[i]);
-        slope_y[i] = hn::Mul(hn::ConvertTo(df, dx), triangle.relative_inverse_w[i]);
+        over_w[i] = hn::Mul(hn::ConvertTo(df, edge), triangle.inverse_w[i]);
+        slope_x[i] = hn::Mul(hn::ConvertTo(df, dy), triangle.inverse_w[i]);
+        slope_y[i] = hn::Mul(hn::ConvertTo(df, dx), triangle.inverse_w[i]);
     }
     const auto sum = [](const LaneFloats(&v)[3]) HWY_ATTR { return hn::Add(hn::Add(v[0], v[1]), v[2]); };
     const LaneFloats w = hn::Div(hn::Set(df, 1.0f), sum(over_w)), w_per_pixel = hn::Mul(w, hn::Set(df, float(kSampleOne)));

@@ -102,10 +102,10 @@ struct alignas(64) SetupTriangle {
     uint32_t triangle_id;  ///< scene order
     CoverageClass coverage;
     bool front_facing;
-    /// 1/w of the vertices over the largest of the three; of a whole triangle.
-    float relative_inverse_w[3];
-    uint8_t corner[3];   ///< of a whole triangle: which corner of the primitive is at x[i], y[i]
-    bool compact;        ///< a whole triangle of at most kCompactExtent pixels along x and y, w at most 1 : kCompactMostW
+    float rounded_inverse_w[3];  ///< inverse_w
+    uint8_t corner[3];           ///< of a whole triangle: which corner of the primitive is at x[i], y[i]
+    bool compact;        ///< a whole triangle of at most kCompactExtent pixels along x and y, w at most 1 : kCompactMostW and not beyond
+                         ///< kCompactInverseW
     uint32_t draw;       ///< index into the draws
     uint32_t primitive;  ///< triangle within the draw; its vertices are indices[3*primitive + corner]
     /// Of a whole triangle: 1/w of its vertices, in the order of x and y.
@@ -118,6 +118,8 @@ struct alignas(64) SetupTriangle {
 inline constexpr int kCompactExtent = 64;
 /// Beyond this ratio of w, slopes of weights would lose digits in single precision.
 inline constexpr double kCompactMostW = 2;
+/// Largest 1/w, and its inverse the least, that leaves room for products with edge functions.
+inline constexpr double kCompactInverseW = 0x1p64;
 
 inline constexpr uint32_t kNoTriangle = 0xFFFFFFFFu;
 

@@ -95,7 +95,7 @@ class TileRasterizer {
         if (hiz_ && (across | down) != 0 && first_block.open == 0 && rejects(triangle, hit)) return;
         if (hit.covered == 0) return;
         // What whoever shades the tile reads of triangles that cover something, each in a line of its own.
-        hwy::Prefetch(&triangle.relative_inverse_w);
+        hwy::Prefetch(&triangle.rounded_inverse_w);
         // Bytes that are written may be anything's, so that all else is to be at hand.
         const hn::CappedTag<double, 1> d;
         const hn::Rebind<float, decltype(d)> df;
