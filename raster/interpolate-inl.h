@@ -47,7 +47,7 @@ HWY_ATTR inline void barycentric_wave(const Frame& frame, const uint32_t* setup_
         return;
     }
     const uint32_t first = setup_index[std::countr_zero(mask)];
-    if ((~lanes_of_triangle(setup_index, first) & mask) != 0) {
+    if (!points.same_triangle && (~lanes_of_triangle(setup_index, first) & mask) != 0) {
         barycentrics_by_lane(frame, setup_index, points, mask, latest, out);
     } else if (frame.triangle(first).compact) {
         compact_wave(CompactTriangle(frame.triangle(first)), points, out);

@@ -40,6 +40,7 @@ struct BlockPoints {
     int x, y;                    ///< upper left pixel of the block
     const SampleOffset* offset;  ///< 32
     bool same_offset = false;    ///< all 32 are equal, as the caller knows
+    bool same_triangle = false;  ///< all 32 lanes see one triangle, as the caller knows
 };
 
 /// 32 lanes, structure of arrays, in single precision; raster/interpolate-inl.h computes it in vectors. At covered samples and to within

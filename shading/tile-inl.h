@@ -40,6 +40,7 @@ struct PixelWave {
     WaveMask inside = 0;  ///< pixels that are to be rendered
     alignas(64) raster::SampleOffset offset[texunit::kWaveLanes];
     alignas(64) uint32_t setup_index[texunit::kWaveLanes];
+    bool same_triangle = false;  ///< all lanes see what the first one sees
     bool has_directions = false;
     WaveVector direction;  ///< unit, from the eye through the sample points; found when first asked for
 };
@@ -250,11 +251,16 @@ class TileRenderer {
     void shade_wave(int x, int y) {
         load_pixels(x, y);
         planes_.begin_wave(wave_.index);
-        const WaveMask surface = wave_.inside & ~lanes_that_see(wave_.setup_index, raster::kNoTriangle);
+        const WaveMask surface = wave_.inside & ~lanes_that_see_nothing();
         scratch_.totals.samples_shaded += uint64_t(std::popcount(surface));
         if (surface != 0) shade_surfaces(surface);
         if (wave_.inside & ~surface) shade_background(wave_.inside & ~surface);
         if (watched()) tell_sampled(x, y);
+    }
+
+    WaveMask lanes_that_see_nothing() const {
+        if (!wave_.same_triangle) return lanes_that_see(wave_.setup_index, raster::kNoTriangle);
+        return wave_.setup_index[0] == raster::kNoTriangle ? texunit::kWaveFull : 0;
     }
 
     /// What the tile's arrays hold for the wave's pixels.
@@ -262,6 +268,7 @@ class TileRenderer {
         wave_.has_directions = false;
         const size_t pixel = size_t(y * tile_size_ + x);
         const raster::TileVisibility::Block& block = scratch_.visibility.block_of(x, y);
+        wave_.same_triangle = !block.written;
         if (block.written) {
             load_wave(&scratch_.visibility.triangle[pixel], tile_size_, wave_.setup_index);
         } else {
@@ -292,7 +299,8 @@ class TileRenderer {
         if (inputs_.shadow_taps == ShadowTaps::One) find_shadow_numbers();
         clamp_weights(weights_);
         for (WaveMask rest = surface; rest != 0;) {
-            const DrawLanes seen = first_draw(frame_, wave_.setup_index, rest);
+            const DrawLanes seen = wave_.same_triangle ? DrawLanes{frame_.triangle(wave_.setup_index[0]).draw, rest, true}
+                                                       : first_draw(frame_, wave_.setup_index, rest);
             const DrawState& draw = inputs_.draws[seen.draw];
             rest &= ~seen.lanes;
             shapes_ = draw.material->branches() || wants_shape(*draw.material->material);
@@ -312,7 +320,8 @@ class TileRenderer {
     bool wants_shape(const Material& material) const { return !material.unlit || planes_.keeps_layers() || watched(); }
 
     SampleBlock sample_block() {
-        return {frame_, wave_.setup_index, {wave_.x, wave_.y, wave_.offset, inputs_.pixel_jitter == PixelJitter::Frame}, latest_anchors_};
+        const bool same_offset = inputs_.pixel_jitter == PixelJitter::Frame;
+        return {frame_, wave_.setup_index, {wave_.x, wave_.y, wave_.offset, same_offset, wave_.same_triangle}, latest_anchors_};
     }
 
     void find_fragment(const DrawState& draw, const DrawLanes& seen, const PlaneLanes* planes = nullptr) {

@@ -34,19 +34,49 @@ struct TexelWindow {
     bool whole_level;  ///< all blocks of the level are ready
 };
 
-/// The least and the largest of `count` waves.
-HWY_INLINE void find_range(const WaveInt* waves, int count, int32_t& least, int32_t& most) {
+/// The least and the largest of some waves, lane by lane.
+struct LaneRange {
+    IntVec low, high;
+};
+HWY_INLINE LaneRange range_of(const WaveInt* waves, int count) {
     const IntTag d;
-    auto low = hn::Load(d, waves[0].lane), high = low;
+    LaneRange range{hn::Load(d, waves[0].lane), hn::Load(d, waves[0].lane)};
     for (int k = 0; k < count; ++k) {
         for (size_t i = 0; i < kWaveLanes; i += hn::Lanes(d)) {
             const auto texel = hn::Load(d, waves[k].lane + i);
-            low = hn::Min(low, texel);
-            high = hn::Max(high, texel);
+            range = {hn::Min(range.low, texel), hn::Max(range.high, texel)};
         }
     }
-    least = hn::GetLane(hn::MinOfLanes(d, low));
-    most = hn::GetLane(hn::MaxOfLanes(d, high));
+    return range;
+}
+
+/// Finds the first and last texels of the window: the four extremes over all lanes at once.
+HWY_INLINE void find_extremes(const LaneRange& x, const LaneRange& y, TexelWindow& window) {
+    const IntTag d;
+#if HWY_TARGET == HWY_AVX3
+    const hn::RepartitionToWide<IntTag> wide;
+    // Blocks of four lanes: the largest of -low and of high, of x and of y.
+    const auto both = [&](const LaneRange& range) HWY_ATTR {
+        const auto low = hn::Neg(range.low);
+        return hn::Max(hn::InterleaveLower(d, low, range.high), hn::InterleaveUpper(d, low, range.high));
+    };
+    const auto of_x = hn::BitCast(wide, both(x)), of_y = hn::BitCast(wide, both(y));
+    const auto four = hn::Max(hn::BitCast(d, hn::InterleaveLower(wide, of_x, of_y)), hn::BitCast(d, hn::InterleaveUpper(wide, of_x, of_y)));
+    const hn::Half<IntTag> half;
+    const hn::Half<decltype(half)> quarter;
+    const auto two = hn::Max(hn::LowerHalf(half, four), hn::UpperHalf(half, four));
+    alignas(16) int32_t most[4];
+    hn::Store(hn::Max(hn::LowerHalf(quarter, two), hn::UpperHalf(quarter, two)), quarter, most);
+    window.x = -most[0];
+    window.last_x = most[1];
+    window.y = -most[2];
+    window.last_y = most[3];
+#else
+    window.x = hn::GetLane(hn::MinOfLanes(d, x.low));
+    window.last_x = hn::GetLane(hn::MaxOfLanes(d, x.high));
+    window.y = hn::GetLane(hn::MinOfLanes(d, y.low));
+    window.last_y = hn::GetLane(hn::MaxOfLanes(d, y.high));
+#endif
 }
 
 HWY_INLINE bool is_same(const WaveInt& wave) {
@@ -62,11 +92,10 @@ HWY_INLINE bool is_same(const WaveInt& wave) {
 HWY_INLINE bool find_window(const Texture& texture, const WaveInt& level, const WaveInt* x, int columns, const WaveInt* y, int rows,
                             int most_registers, TexelWindow& window) {
     window.whole_level = (texture.ready_levels() >> level[0] & 1) != 0;
-    find_range(x, columns, window.x, window.last_x);
+    find_extremes(range_of(x, columns), range_of(y, rows), window);
     const int width = window.last_x - window.x + 1;
     if (width > (window.whole_level ? kRegisterTexels : 4)) return false;
     window.log2_columns = width <= 4 ? 2 : width <= 8 ? 3 : 4;
-    find_range(y, rows, window.y, window.last_y);
     const int height = window.last_y - window.y + 1;
     if (height > (window.whole_level ? most_registers * kRegisterTexels >> window.log2_columns : 4)) return false;
     const int texels = height << window.log2_columns;
