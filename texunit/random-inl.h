@@ -39,15 +39,21 @@ HWY_INLINE hn::Vec<hn::Rebind<float, D>> unit_float_v(D, V bits) {
     return hn::Mul(hn::ConvertTo(df, hn::BitCast(di, hn::ShiftRight<8>(bits))), hn::Set(df, 0x1p-24f));
 }
 
+/// i, i + 1 … as Iota, which highway makes number by number where `i` is not a constant.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V lane_numbers(D d, size_t i) {
+    return hn::Add(hn::Iota(d, 0u), hn::Set(d, uint32_t(i)));
+}
+
 /// Columns and rows of lanes i .. of a wave whose first pixel is (x, y).
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V columns_v(D d, uint32_t x, size_t i) {
-    return hn::Add(hn::Set(d, x), hn::And(hn::Add(hn::Iota(d, 0u), hn::Set(d, uint32_t(i))), hn::Set(d, kWaveWidth - 1)));
+    return hn::Add(hn::Set(d, x), hn::And(lane_numbers(d, i), hn::Set(d, kWaveWidth - 1)));
 }
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V rows_v(D d, uint32_t y, size_t i) {
     static_assert(kWaveWidth == 1 << 3);
-    return hn::Add(hn::Set(d, y), hn::ShiftRight<3>(hn::Add(hn::Iota(d, 0u), hn::Set(d, uint32_t(i)))));
+    return hn::Add(hn::Set(d, y), hn::ShiftRight<3>(lane_numbers(d, i)));
 }
 
 /// The numbers of a wave whose first pixel is (x, y).
