@@ -83,6 +83,7 @@ HWY_INLINE void look_up_maps(const MaterialState& material, const FragmentWave& 
         if (!material.gloss.moments[k]) continue;
         MapState map = material.maps[kNormal];
         map.texture = material.gloss.moments[k];
+        map.sampler.reads_alpha = true;  // a moment, whatever the material does with alpha
         look_up(map, fragment.coordinates[map.coordinates], mask, out.moments[k], nullptr);
     }
 }

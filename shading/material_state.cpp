@@ -128,6 +128,7 @@ MaterialState make_material_state(const Scene& scene, uint32_t index, const Look
         lookup.sampler = map.sampler;
         const AskedLookup asked = asked_lookup(scene, *state.material, slot, overrides);
         override_sampler(overrides, lookup.sampler);
+        lookup.sampler.reads_alpha = state.material->alpha_mode != AlphaMode::Opaque;
         lookup.sampler.estimator = asked.filtering.estimator;
         override_baseline(asked.filtering.baseline, lookup.sampler);
         if (asked.policy.filter) lookup.sampler.magnify = lookup.sampler.minify = *asked.policy.filter;

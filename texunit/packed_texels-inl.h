@@ -89,10 +89,11 @@ class PackedDecoder {
   public:
     explicit PackedDecoder(const TexelLayout& layout) : layout_(layout), srgb8_(srgb8_tables()) {}
 
-    /// The stored numbers of all channels: numerators, or linear values of sRGB.
-    HWY_INLINE void numbers(WordVec word, FloatVec (&number)[4]) const {
+    /// The stored numbers of all channels, or of red, green and blue: numerators, or linear values of sRGB.
+    template <int channels>
+    HWY_INLINE void numbers(WordVec word, FloatVec (&number)[channels]) const {
         if constexpr (fields == PackedFields::Any) {
-            for (int c = 0; c < 4; ++c) number[c] = field_number(layout_, c, layout_.shift[c], word);
+            for (int c = 0; c < channels; ++c) number[c] = field_number(layout_, c, layout_.shift[c], word);
             return;
         }
         if constexpr (fields == PackedFields::Srgb8) {
@@ -100,7 +101,7 @@ class PackedDecoder {
         } else {
             number[0] = byte_number<0>(word), number[1] = byte_number<1>(word), number[2] = byte_number<2>(word);
         }
-        number[3] = byte_number<3>(word);
+        if constexpr (channels == 4) number[3] = byte_number<3>(word);
     }
 
     /// From a number of channel c, or a mean of such, to its value.
@@ -114,16 +115,24 @@ class PackedDecoder {
         return fused_multiply_add(number, hn::Set(d, layout_.scale_hi[c]), hn::Mul(number, hn::Set(d, layout_.scale_lo[c])));
     }
 
-    /// The values of all channels.
-    HWY_INLINE void values(WordVec word, FloatVec (&result)[4]) const {
+    /// The values of all channels, or of red, green and blue.
+    template <int channels>
+    HWY_INLINE void values(WordVec word, FloatVec (&result)[channels]) const {
         numbers(word, result);
-        for (int c = 0; c < 4; ++c) result[c] = value(c, result[c]);
+        for (int c = 0; c < channels; ++c) result[c] = value(c, result[c]);
     }
 
   private:
     const TexelLayout& layout_;
     const Srgb8Tables& srgb8_;
 };
+
+/// Calls `act` with the number of channels that a lookup reads, 3 or 4, as a constant of the type std::integral_constant.
+template <class Act>
+HWY_INLINE auto with_channels(bool reads_alpha, const Act& act) {
+    if (reads_alpha) return act(std::integral_constant<int, 4>());
+    return act(std::integral_constant<int, 3>());
+}
 
 /// Calls `act` with the fields as a constant of the type std::integral_constant.
 template <class Act>

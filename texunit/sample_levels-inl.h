@@ -55,7 +55,7 @@ HWY_NOINLINE void hear_taps(const LevelTable& table, const TapWave<W>& taps, boo
 template <StorageClass storage, int W>
 HWY_INLINE void read_flat_taps(Texture& texture, const SamplerState& sampler, bool cube, const TapWave<W>& taps, WaveColor& out) {
     if constexpr (storage == StorageClass::Packed32 && W == 2) {
-        if (!taps.leaves) return filter_packed_bilinear(texture, taps, out);
+        if (!taps.leaves) return filter_packed_bilinear(texture, sampler.reads_alpha, taps, out);
     }
     TexelWave<W * W> texels;
     fetch<storage>(texture, sampler.border, cube, taps, texels);

@@ -42,6 +42,7 @@ struct SamplerState {
     float lod_bias = 0.0f;                    ///< added to lambda before it is clamped
     float min_lod = 0.0f, max_lod = 1000.0f;  ///< levels; min_lod wins
     std::array<float, 4> border{};            ///< linear RGBA beyond the edges of ClampToBorder
+    bool reads_alpha = true;                  ///< false: nobody looks at the alpha that comes back, which is unspecified then
 
     /// One probe at the level that the longer axis asks for.
     bool is_isotropic() const { return probes == 1 && probe_variance <= 0.0f && ellipse <= 0.0f; }

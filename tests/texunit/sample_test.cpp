@@ -330,6 +330,35 @@ TEST_P(Sample, CountsTapsOfWeightZeroNowhere) {
         << "one level, of one texel: each tap reads it";
 }
 
+TEST_P(Sample, WithoutAlphaKeepsTheBitsOfColour) {
+    std::mt19937 random(13);
+    for (const Format format : {Format::RGBA8Unorm, Format::RGBA8Srgb, Format::RGBA8Snorm, Format::RGBA16Unorm, Format::RGBA32Float}) {
+        Texture texture("hashed", make_hashed_pyramid(format, 64, 32));
+        for (int round = 0; round < 300; ++round) {
+            SamplerState sampler;
+            sampler.mip = kMipModes[random() % 3];
+            sampler.wrap_s = sampler.wrap_t = round % 5 == 0 ? Wrap::ClampToBorder : kWraps[random() % 3];
+            sampler.magnify = kKernels[random() % 2];
+            sampler.probes = round % 7 == 0 ? 8 : 1;
+            WaveCoordinates at = random_coordinates(random, 64);
+            // Waves of neighbours fall into windows of a few texels (texunit/texel_window-inl.h).
+            for (int i = 0; round % 3 != 0 && i < kWaveLanes; ++i) {
+                const float step = 0.01f * float(round % 3);
+                at.u[i] = at.u[0] + step * float(i % kWaveWidth), at.v[i] = at.v[0] + step * float(i / kWaveWidth);
+                at.dudx[i] = at.dvdy[i] = step, at.dudy[i] = at.dvdx[i] = 0;
+            }
+            WaveColor with, without;
+            sample_wave(texture, sampler, at, kWaveFull, with);
+            sampler.reads_alpha = false;
+            sample_wave(texture, sampler, at, kWaveFull, without);
+            for (int c = 0; c < 3; ++c) {
+                ASSERT_EQ(std::memcmp(&without.channel[c], &with.channel[c], sizeof with.channel[c]), 0)
+                    << info(format).name << " round " << round << " channel " << c;
+            }
+        }
+    }
+}
+
 TEST_P(Sample, OfAlikeTexturesIsThatOfEachToTheBit) {
     std::mt19937 random(11);
     for (const int extent : {64, 37}) {
