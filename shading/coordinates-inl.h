@@ -64,13 +64,13 @@ HWY_INLINE void corner_coordinates(const CoordinateState& state, const Mesh& mes
 }
 
 /// One coordinate and its derivatives at lanes [i, i + Lanes).
-HWY_INLINE void interpolate_coordinate(const CornerCoordinate& c, const raster::BarycentricWave& weights, size_t i, WaveFloat& value,
-                                       WaveFloat& ddx, WaveFloat& ddy) {
+HWY_INLINE void interpolate_coordinate(const CornerCoordinate& c, const WeightLanes& weights, size_t i, WaveFloat& value, WaveFloat& ddx,
+                                       WaveFloat& ddy) {
     const FloatLanes d;
     const auto f1 = hn::Sub(c.f1, c.f0), f2 = hn::Sub(c.f2, c.f0);
-    hn::Store(interpolate(load_weights(weights, i), c.f0, c.f1, c.f2), d, value.lane + i);
-    hn::Store(hn::Add(hn::Mul(hn::Load(d, weights.db1_dx + i), f1), hn::Mul(hn::Load(d, weights.db2_dx + i), f2)), d, ddx.lane + i);
-    hn::Store(hn::Add(hn::Mul(hn::Load(d, weights.db1_dy + i), f1), hn::Mul(hn::Load(d, weights.db2_dy + i), f2)), d, ddy.lane + i);
+    hn::Store(interpolate(CornerWeights{weights.b1, weights.b2}, c.f0, c.f1, c.f2), d, value.lane + i);
+    hn::Store(hn::Add(hn::Mul(weights.db1_dx, f1), hn::Mul(weights.db2_dx, f2)), d, ddx.lane + i);
+    hn::Store(hn::Add(hn::Mul(weights.db1_dy, f1), hn::Mul(weights.db2_dy, f2)), d, ddy.lane + i);
 }
 
 /// Both coordinates of the corners of lanes [i, i + Lanes), in the range that their fractions keep their bits in.
@@ -83,33 +83,40 @@ HWY_INLINE CornerPair reduce_ranges(const CoordinateState& state, CornerPair c) 
     return c;
 }
 
-HWY_INLINE void interpolate_pair(const CornerPair& c, const raster::BarycentricWave& weights, size_t i, texunit::WaveCoordinates& out) {
+HWY_INLINE void interpolate_pair(const CornerPair& c, const WeightLanes& weights, size_t i, texunit::WaveCoordinates& out) {
     interpolate_coordinate(c.u, weights, i, out.u, out.dudx, out.dudy);
     interpolate_coordinate(c.v, weights, i, out.v, out.dvdx, out.dvdy);
 }
 
-/// at(i): the corners of lanes [i, i + Lanes). Those of one triangle are asked for once.
-template <class Corners, class At>
-HWY_INLINE void interpolate_pairs(const CoordinateState& state, const At& at, const raster::BarycentricWave& weights,
-                                  texunit::WaveCoordinates& out) {
-    if constexpr (std::is_same_v<Corners, OneTriangle>) {
-        const CornerPair all = reduce_ranges(state, at(0));
-        for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(FloatLanes())) interpolate_pair(all, weights, i, out);
-    } else {
-        for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(FloatLanes()))
-            interpolate_pair(reduce_ranges(state, at(i)), weights, i, out);
-    }
+/// Both coordinates of the corners of lanes [i, i + Lanes), as lookups see them.
+template <class Corners>
+HWY_INLINE CornerPair corner_pair(const CoordinateState& state, const Mesh& mesh, const Corners& corners, size_t i) {
+    CornerPair c;
+    corner_coordinates(state, mesh, corners, i, c.u, c.v);
+    return reduce_ranges(state, c);
 }
 
 template <class Corners>
 HWY_INLINE void interpolate_coordinates(const CoordinateState& state, const Mesh& mesh, const Corners& corners,
                                         const raster::BarycentricWave& weights, texunit::WaveCoordinates& out) {
-    const auto at = [&](size_t i) HWY_ATTR {
-        CornerPair c;
-        corner_coordinates(state, mesh, corners, i, c.u, c.v);
-        return c;
-    };
-    interpolate_pairs<Corners>(state, at, weights, out);
+    constexpr bool one_triangle = std::is_same_v<Corners, OneTriangle>;
+    CornerPair pair = corner_pair(state, mesh, corners, 0);
+    for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(FloatLanes())) {
+        if (!one_triangle && i > 0) pair = corner_pair(state, mesh, corners, i);
+        interpolate_pair(pair, load_lanes(weights, i), i, out);
+    }
+}
+
+/// The same within one triangle, whose weights at `points` nobody else asks for.
+HWY_INLINE void interpolate_coordinates(const CoordinateState& state, const Mesh& mesh, const OneTriangle& corners,
+                                        const raster::Anchor& anchor, const raster::BlockPoints& points, texunit::WaveCoordinates& out) {
+    const CornerPair pair = corner_pair(state, mesh, corners, 0);
+    for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(FloatLanes())) {
+        WeightLanes weights = raster::HWY_NAMESPACE::anchored_lanes(anchor, points, i);
+        const CornerWeights w = clamped({weights.b1, weights.b2});
+        weights.b1 = w.b1, weights.b2 = w.b2;
+        interpolate_pair(pair, weights, i, out);
+    }
 }
 
 }  // namespace HWY_NAMESPACE

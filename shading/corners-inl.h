@@ -6,7 +6,7 @@
 #define RAWTEXEL_SHADING_CORNERS_INL_H_
 #endif
 
-#include "raster/interpolate.h"
+#include "raster/anchor-inl.h"
 #include "shading/lanes-inl.h"
 #include "texunit/gather-inl.h"
 
@@ -87,15 +87,28 @@ HWY_INLINE SpaceVector corner_vector(const Corners& corners, int k, const float*
 
 /// Snapping to 1/256 pixel can put a covered sample slightly outside its triangle, and far outside a sliver: attributes stay between
 /// their corners' values.
-HWY_INLINE void clamp_weights(raster::BarycentricWave& weights) {
+HWY_INLINE CornerWeights clamped(const CornerWeights& w) {
     const FloatLanes d;
     const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    const auto b1 = hn::Min(hn::Max(w.b1, zero), one);
+    return {b1, hn::Min(hn::Max(w.b2, zero), hn::Sub(one, b1))};
+}
+
+HWY_INLINE void clamp_weights(raster::BarycentricWave& weights) {
+    const FloatLanes d;
     for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(d)) {
-        const CornerWeights w = load_weights(weights, i);
-        const auto b1 = hn::Min(hn::Max(w.b1, zero), one);
-        hn::Store(b1, d, weights.b1 + i);
-        hn::Store(hn::Min(hn::Max(w.b2, zero), hn::Sub(one, b1)), d, weights.b2 + i);
+        const CornerWeights w = clamped(load_weights(weights, i));
+        hn::Store(w.b1, d, weights.b1 + i);
+        hn::Store(w.b2, d, weights.b2 + i);
     }
+}
+
+/// Weights and their derivatives.
+using WeightLanes = raster::HWY_NAMESPACE::BarycentricLanes;
+HWY_INLINE WeightLanes load_lanes(const raster::BarycentricWave& weights, size_t i) {
+    const FloatLanes d;
+    return {hn::Load(d, weights.b1 + i),     hn::Load(d, weights.b2 + i),     hn::Load(d, weights.db1_dx + i),
+            hn::Load(d, weights.db2_dx + i), hn::Load(d, weights.db1_dy + i), hn::Load(d, weights.db2_dy + i)};
 }
 
 }  // namespace HWY_NAMESPACE

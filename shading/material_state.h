@@ -53,6 +53,10 @@ struct MaterialState {
     MapState mask;  ///< of the layers' weights
 
     bool branches() const { return layer_count > 0 || material->triplanar.has_value(); }
+    /// Whether shading interpolates at most one set of coordinates and, vertex colours apart, nothing else.
+    bool interpolates_coordinates_alone() const {
+        return material->unlit && coordinate_count <= 1 && !maps[kNormal].texture && !branches();
+    }
     bool draws_level = false;  ///< shading/baseline.h
     GlossState gloss;
 };

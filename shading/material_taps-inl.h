@@ -45,12 +45,9 @@ class MaterialTaps {
     HearTap hear;  ///< may be empty
 
     /// `fragments` and what it points to outlive the use of the taps.
-    HWY_NOINLINE void begin(const TappedFragments& fragments) {
+    HWY_INLINE void begin(const TappedFragments& fragments) {
         fragments_ = fragments;
-        for (int k = 0; k < fragments.material->coordinate_count; ++k) {
-            if (fragments.lanes == texunit::kWaveFull) break;
-            texunit::HWY_NAMESPACE::fill_inactive(fragments.coordinates[k], fragments.lanes, filled_[k]);
-        }
+        if (fragments.lanes != texunit::kWaveFull) fill_inactive();
     }
 
     /// The plan of one map alone: what alpha asks for.
@@ -66,7 +63,7 @@ class MaterialTaps {
     /// use(tap, n) for every tap of draw n, or of all tuples where `enumerates` (n = 0). Weights of a lane's taps sum to 1 for each n.
     template <class Use>
     HWY_INLINE void for_each(const TapPlan& plan, bool enumerates, const Use& use) {
-        const texunit::LookupSet set = lookup_set(plan);
+        const texunit::LookupSet& set = lookup_set(plan);
         if (enumerates) {
             return texunit::enumerate_shared(set, [&](const texunit::SharedTap& tap) {
                 if (hear) hear({&plan, -1, &tap, nullptr, 0});
@@ -90,7 +87,7 @@ class MaterialTaps {
         for (int slot = 0; slot < kMapSlots; ++slot) {
             if (!plan.holds(slot)) continue;
             find_numbers(n, 1 + uint32_t(slot));
-            const texunit::LookupSet set = lookup_set(only(plan, MapSlot(slot)));
+            const texunit::LookupSet& set = lookup_set(only(plan, MapSlot(slot)));
             const texunit::DrawNumbers* numbers = &positive_;
             texunit::draw_shared(set, positive_, negative_, [&](const texunit::SharedTap& tap) {
                 if (hear) hear({&plan, slot, &tap, numbers, n});
@@ -110,16 +107,21 @@ class MaterialTaps {
     WaveMask lanes() const { return fragments_.lanes; }
 
   private:
-    texunit::LookupSet lookup_set(const TapPlan& plan) const {
-        texunit::LookupSet set;
-        set.mask = fragments_.lanes;
-        set.count = plan.lookups;
+    HWY_NOINLINE void fill_inactive() {
+        for (int k = 0; k < material().coordinate_count; ++k)
+            texunit::HWY_NAMESPACE::fill_inactive(fragments_.coordinates[k], fragments_.lanes, filled_[k]);
+    }
+
+    /// Lasts until it is asked for another plan.
+    const texunit::LookupSet& lookup_set(const TapPlan& plan) {
+        set_.mask = fragments_.lanes;
+        set_.count = plan.lookups;
         const texunit::WaveCoordinates* const at = fragments_.lanes == texunit::kWaveFull ? fragments_.coordinates : filled_;
         for (int k = 0; k < plan.lookups; ++k) {
             const MapState& map = material().maps[plan.first[size_t(k)]];
-            set.lookup[k] = {&map.texture->levels(), &map.sampler, &at[map.coordinates]};
+            set_.lookup[k] = {&map.texture->levels(), &map.sampler, &at[map.coordinates]};
         }
-        return set;
+        return set_;
     }
 
     /// Numbers of draw n; `own`: 0, or which map's own they are.
@@ -154,6 +156,8 @@ class MaterialTaps {
         // Who listens is told of all roles.
         const texunit::NumberRoles roles = hear ? texunit::NumberRoles{} : material().plans.roles;
         draw_numbers(address, positive, material().plans.noise, roles, states_);
+        // Without negative lobes nobody asks for their numbers.
+        if (!material().plans.roles.sign) return;
         if (material().plans.common_numbers) {
             negative = positive;
         } else {
@@ -171,6 +175,7 @@ class MaterialTaps {
 
     TappedFragments fragments_;
     texunit::WaveCoordinates filled_[kMapSlots];
+    texunit::LookupSet set_;
     texunit::DrawNumbers positive_{}, negative_{};
     texunit::RandomStates states_;
 };

@@ -127,7 +127,7 @@ HWY_INLINE void interpolate_plane_coordinates(const CoordinateState& state, cons
                           p2 = corner_vector<3>(corners, 2, positions, i);
         CornerCoordinate u{u_of(p0), u_of(p1), u_of(p2)}, v{v_of(p0), v_of(p1), v_of(p2)};
         transform_corners(state, u, v);
-        interpolate_pair(reduce_ranges(state, {u, v}), weights, i, out);
+        interpolate_pair(reduce_ranges(state, {u, v}), load_lanes(weights, i), i, out);
     }
 }
 

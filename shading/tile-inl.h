@@ -214,7 +214,7 @@ class TileRenderer {
                                             .fragment = &fragment_,
                                             .maps = maps_.slot,
                                             .surface = &surface_,
-                                            .radiance = &radiance_,
+                                            .radiance = radiance_,
                                             .weight = part.weight,
                                             .alpha = part.alpha,
                                             .branch = in_branch_,
@@ -293,8 +293,32 @@ class TileRenderer {
         }
     }
 
+    /// Whether coordinates are all that shading interpolates in a wave that sees this triangle alone.
+    bool interpolates_coordinates_alone(const DrawState& draw, const raster::SetupTriangle& triangle) const {
+        const bool plain = !inputs_.derivatives.quad && inputs_.derivatives.scale == 1.0f && !steps_.taken();
+        return plain && draw.material->interpolates_coordinates_alone() && draw.mesh->colors.empty() && !triangle.compact &&
+               !wants_shape(*draw.material->material);
+    }
+
+    /// A pass for such a triangle, whose weights are not kept.
+    void shade_coordinates_alone(const DrawState& draw, const raster::SetupTriangle& triangle, WaveMask pass) {
+        shapes_ = false;
+        const MaterialState& material = *draw.material;
+        if (material.coordinate_count > 0) {
+            const OneTriangle corners{&draw.mesh->indices[size_t(triangle.primitive) * 3]};
+            const raster::Anchor& anchor = latest_anchors_.of(wave_.setup_index[0], wave_.x, wave_.y);
+            interpolate_coordinates(material.coordinates[0], *draw.mesh, corners, anchor, sample_block().points, fragment_.coordinates[0]);
+        }
+        shade_pass(draw, pass);
+    }
+
     /// One masked pass per draw that the wave sees.
     void shade_surfaces(WaveMask surface) {
+        if (wave_.same_triangle) {
+            const raster::SetupTriangle& triangle = frame_.triangle(wave_.setup_index[0]);
+            const DrawState& draw = inputs_.draws[triangle.draw];
+            if (interpolates_coordinates_alone(draw, triangle)) return shade_coordinates_alone(draw, triangle, surface);
+        }
         find_barycentrics(inputs_.derivatives, sample_block(), surface, weights_);
         if (inputs_.shadow_taps == ShadowTaps::One) find_shadow_numbers();
         clamp_weights(weights_);
@@ -357,7 +381,8 @@ class TileRenderer {
         in_branch_ = false;
         if (material.blend == Blend::Draw) return;
         if (material.blends_light) {
-            branch_sum_.light(radiance_, surface_);
+            branch_sum_.light(light_, surface_);
+            radiance_ = &light_;
         } else {
             branch_sum_.surface(surface_);
             const MaterialState& lit = material.layer_count > 0 ? *material.layers[0] : material;
@@ -383,7 +408,7 @@ class TileRenderer {
             shade_fragments(*branch.draw, branch.lanes);
             // Its taps have been told of one by one.
             if (watched() && branch.draw->material->plans.draws()) tell_shaded(*branch.draw, branch.lanes, {});
-            branch_sum_.add_light(*branch.weight, branch.lanes, radiance_, surface_);
+            branch_sum_.add_light(*branch.weight, branch.lanes, *radiance_, surface_);
         } else {
             find_branch_surface(*branch.draw, branch.lanes);
             branch_sum_.add_surface(*branch.weight, branch.lanes, branch.draw->material->material->unlit, surface_);
@@ -417,7 +442,7 @@ class TileRenderer {
     }
 
     void store_pass(const DrawState& draw, WaveMask pass) {
-        planes_.store_radiance(radiance_, pass);
+        planes_.store_radiance(*radiance_, pass);
         if (planes_.keeps_layers()) planes_.store_layers({draw, wave_.setup_index, weights_, fragment_, surface_}, pass);
         planes_.store_material(draw.material->index, pass);
     }
@@ -441,10 +466,11 @@ class TileRenderer {
     /// From surface_ to radiance_.
     void light_surface(const Material& material, WaveMask lanes) {
         if (material.unlit) {
-            radiance_ = surface_.base_color;
+            radiance_ = &surface_.base_color;
         } else {
             turn_to_viewer();
-            shade_lanes(*inputs_.lighting, surface_, lanes, radiance_, inputs_.shadow_taps == ShadowTaps::One ? &light_numbers_ : nullptr,
+            radiance_ = &light_;
+            shade_lanes(*inputs_.lighting, surface_, lanes, light_, inputs_.shadow_taps == ShadowTaps::One ? &light_numbers_ : nullptr,
                         inputs_.skip_zero_weights);
         }
     }
@@ -501,9 +527,10 @@ class TileRenderer {
             shade_maps(draw, lanes);
             if (covers) find_alpha(*material.material, &maps_.slot[kBaseColor].channel[3], vertex, alpha);
             if (watched()) tell_shaded(draw, lanes, {&weight, covers ? &alpha : nullptr});
-            tap_sum_.add(*material.material, {&radiance_, &surface_, &weight, covers ? &alpha : nullptr, lanes});
+            tap_sum_.add(*material.material, {radiance_, &surface_, &weight, covers ? &alpha : nullptr, lanes});
         });
-        tap_sum_.radiance(radiance_);
+        tap_sum_.radiance(light_);
+        radiance_ = &light_;
         if (planes_.keeps_layers()) tap_sum_.layers(surface_);
     }
 
@@ -535,8 +562,8 @@ class TileRenderer {
             planes_.store_radiance(*inputs_.background, mask);
         } else if (inputs_.lighting->environment) {
             find_directions();
-            environment_radiance_lanes(*inputs_.lighting->environment, wave_.direction, mask, radiance_);
-            planes_.store_radiance(radiance_, mask);
+            environment_radiance_lanes(*inputs_.lighting->environment, wave_.direction, mask, light_);
+            planes_.store_radiance(light_, mask);
         } else {
             planes_.store_radiance(glm::vec3(0.0f), mask);
         }
@@ -560,7 +587,8 @@ class TileRenderer {
     FragmentWave fragment_{};
     MapColors maps_{};
     SurfaceWave surface_{};
-    WaveVector radiance_{};
+    WaveVector light_{};
+    const WaveVector* radiance_ = &light_;  ///< what is seen: light_, or of an unlit surface its base colour
     MaterialTaps taps_;
     TapSum tap_sum_;
     MaterialBranches branches_;

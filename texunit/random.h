@@ -72,7 +72,8 @@ class RandomStates {
     }
 
   private:
-    constexpr void absorb(const RandomAddress& address) {
+    // Not inlined: vector moves of the address, which was written word by word just before, would wait for those writes.
+    [[gnu::noinline]] constexpr void absorb(const RandomAddress& address) {
         seed_ = address.seed, sample_ = address.sample, surface_ = address.surface, known_ = true;
         for (size_t n = 0; n < kDimensions; ++n) state_[n] = random_state(seed_, sample_, surface_, Dimension(n));
     }

@@ -67,7 +67,11 @@ HWY_INLINE bool has_negative_lobes(const DrawnSet& set) {
 /// A texel of one lookup.
 HWY_INLINE void draw_one(const DrawnSet& set, int k, const DrawNumbers& numbers, Lobes lobes, const LobeMass& mass, TexelDraw& draw) {
     const DrawnLookup& lookup = set.lookup[k];
-    if (HWY_UNLIKELY(lookup.position.slice != nullptr)) draw.slice = *lookup.position.slice;
+    if (HWY_UNLIKELY(lookup.position.slice != nullptr)) {
+        draw.slice = *lookup.position.slice;
+    } else {
+        draw.slice = {};
+    }
     draw_lanes(lookup, set.mask, numbers, lobes, mass, draw);
 }
 
@@ -346,7 +350,7 @@ HWY_INLINE void enumerate_ellipse(const DrawnSet& set, const Use& use) {
     SamplerState state = *lookup.sampler;
     state.hybrid_bias = std::numeric_limits<float>::infinity();
     SharedTap tap;
-    if (lookup.position.slice != nullptr) tap.draw[0].slice = *lookup.position.slice;
+    tap.draw[0].slice = lookup.position.slice != nullptr ? *lookup.position.slice : WaveInt{};
     for (WaveMask rest = set.mask; rest != 0; rest &= rest - 1) {
         const auto lane = int(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest));
         const EllipseLookup at = ellipse_lookup(*lookup.at, lane);

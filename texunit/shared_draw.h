@@ -40,10 +40,7 @@ struct LookupSet {
 
 /// One tuple: the texel of each lookup of a set. The value of the whole is the sum over tuples of weight*S(texels).
 struct SharedTap {
-    SharedTap() {
-        for (TexelDraw& d : draw) d.slice = {};
-    }
-    TexelDraw draw[kMostSharedLookups];
+    TexelDraw draw[kMostSharedLookups];  ///< of the set's lookups; nothing beyond them
     WaveFloat weight;
     WaveMask lanes = 0;  ///< that weigh it; others hold anything that can be read
 };

@@ -2,6 +2,7 @@
 #include "shading/adaptive_blocks.h"
 #include "shading/render.h"
 #include "tests/shading/executor_kinds.h"
+#include "tests/shading/frame_bits.h"
 #include "texunit/simd.h"
 
 #include <gtest/gtest.h>
@@ -44,11 +45,6 @@ class AdaptiveTest : public testing::Test {
     Scene scene_ = make_busy_scene();
     Lighting lighting_ = busy_lighting(scene_, *one_);
 };
-
-bool same_bits(const Image& a, const Image& b) {
-    return a.width == b.width && a.height == b.height && a.values.size() == b.values.size() &&
-           std::memcmp(a.values.data(), b.values.data(), a.values.size() * sizeof(float)) == 0;
-}
 
 /// Compares every pixel of `image` with that of the plain frame of as many samples.
 void expect_values_of(const std::map<int, const Image*>& plain, const Image& counts, const Image& image, const std::string& what) {

@@ -7,6 +7,7 @@
 #include "texunit/lookup_trace.h"
 #include "texunit/random.h"
 
+#include "tests/shading/frame_bits.h"
 #include "tests/shading/scene_parts.h"
 #include "tests/texunit/hashed_source.h"
 
@@ -14,7 +15,6 @@
 
 #include <array>
 #include <bit>
-#include <cstring>
 #include <functional>
 #include <map>
 #include <memory>
@@ -24,10 +24,6 @@ namespace rawtexel::shading {
 namespace {
 
 using namespace test;
-
-bool same_bits(const Image& a, const Image& b) {
-    return a.values.size() == b.values.size() && std::memcmp(a.values.data(), b.values.data(), a.values.size() * sizeof(float)) == 0;
-}
 
 void for_lanes(WaveMask lanes, const std::function<void(int)>& body) {
     for (; lanes != 0; lanes &= lanes - 1) body(std::countr_zero(lanes));

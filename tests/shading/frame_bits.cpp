@@ -2,7 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 namespace rawtexel::shading::test {
+
+bool same_bits(const Image& a, const Image& b) {
+    return a.width == b.width && a.height == b.height && a.channels == b.channels &&
+           std::memcmp(a.values.data(), b.values.data(), a.values.size() * sizeof(float)) == 0;
+}
 
 Image expect_bits_of_tiles_threads_and_crops(const Scene& scene, const Lighting& lighting, RenderOptions options, const std::string& what) {
     const std::unique_ptr<Executor> one = make_executor(ExecutorKind::Threads, 1), two = make_executor(ExecutorKind::Tbb, 2);

@@ -3,6 +3,7 @@
 #include "scene_parts.h"
 #include "shading/accumulation.h"
 #include "tests/shading/executor_kinds.h"
+#include "tests/shading/frame_bits.h"
 #include "tests/stress/worst_case.h"
 #include "texunit/simd.h"
 
@@ -17,12 +18,6 @@ namespace rawtexel::shading {
 namespace {
 
 using namespace test;
-
-/// The bits of all pixels, so that equal NaNs would be equal and 0 differs from -0.
-bool same_bits(const Image& a, const Image& b) {
-    return a.width == b.width && a.height == b.height && a.channels == b.channels &&
-           std::memcmp(a.values.data(), b.values.data(), a.values.size() * sizeof(float)) == 0;
-}
 
 Image cropped(const Image& image, const Crop& crop) {
     Image part(crop.width, crop.height, image.channels);

@@ -1,6 +1,7 @@
 // Whatever a frame leaves out, the image has the same bits, border pixels included.
 #include "shading/skips.h"
 
+#include "frame_bits.h"
 #include "scene_parts.h"
 #include "shading/cluster_meshes.h"
 #include "shading/render.h"
@@ -9,11 +10,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <random>
 
 namespace rawtexel::shading {
 namespace {
+
+using test::same_bits;
 
 /// A closed ball of many triangles, small enough that most of them show no sample, every vertex with a colour and alpha of its own.
 Mesh ball(uint32_t material) {
@@ -58,10 +60,6 @@ Scene balls_and_a_wall() {
     wall.indices = {0, 1, 2, 0, 2, 3};
     scene.instances.push_back({uint32_t(scene.meshes.size()) - 1, glm::mat4(1.0f)});
     return scene;
-}
-
-bool same_bits(const Image& a, const Image& b) {
-    return a.values.size() == b.values.size() && std::memcmp(a.values.data(), b.values.data(), a.values.size() * sizeof(float)) == 0;
 }
 
 class SkipsTest : public testing::Test {

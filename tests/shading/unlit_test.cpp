@@ -2,6 +2,7 @@
 #include "tests/reference/shading/unlit_reference.h"
 #include "tests/stress/worst_case.h"
 
+#include "frame_bits.h"
 #include "scene_parts.h"
 #include "shading/camera.h"
 #include "shading/render.h"
@@ -115,6 +116,28 @@ TEST(UnlitRender, EqualsTheReferenceOnSilhouettes) {
     add_object(scene, triangle({20.52734375f, 1.48828125f, 1}, {6.11328125f, 18.62109375f, 1}, {25.55078125f, 27.06640625f, 1}),
                unlit({0.5f, 1.5f, 1, 1}));
     expect_close(scene, options, "two triangles");
+}
+
+/// Who asks for layers has everything interpolated; who does not, in blocks that one triangle fills, coordinates alone.
+TEST(UnlitRender, IsTheSameWhateverElseIsInterpolated) {
+    RenderOptions options = converged();
+    options.width = 93;
+    options.height = 61;
+    options.spp = 4;
+    options.camera = floor_camera();
+    const std::unique_ptr<Executor> executor = make_executor(ExecutorKind::Threads, 1);
+    using texunit::Wrap;
+    for (const PixelJitter jitter : {PixelJitter::Frame, PixelJitter::Pixel}) {
+        for (const bool textured : {true, false}) {
+            Scene scene = make_floor({.wrap_s = Wrap::ClampToEdge, .wrap_t = Wrap::MirroredRepeat});
+            if (!textured) scene.materials[0].maps[kBaseColor].texture = -1;
+            options.pixel_jitter = jitter;
+            options.aovs = {};
+            const Image alone = render(scene, Lighting{}, options, *executor).radiance;
+            options.aovs = {Aov::Normal};
+            EXPECT_TRUE(same_bits(render(scene, Lighting{}, options, *executor).radiance, alone)) << to_string(jitter) << textured;
+        }
+    }
 }
 
 TEST(UnlitRender, EqualsTheReferenceFarFromTheTextureOrigin) {
