@@ -279,17 +279,14 @@ class ClusterSetup {
         }
         in_one_tile_ = in_no_tile_ = compact_ = 0;
         for (size_t i = 0; i < count; i += hn::Lanes(d)) set_up_lanes_at(list, i, std::min(count - i, hn::Lanes(d)));
-        staged_count_ = 0;
-        const uint32_t* const primitives = mesh_->primitive.data() + cluster_->first_triangle;
-        const uint32_t first_id = draw_->first_triangle_id;
-        for (size_t i = 0; i < count; ++i) write(i, list[i], primitives[list[i]], first_id);
+        const size_t staged = stage(list, count);
         // Nobody reads them soon: past the caches.
         const hn::CappedTag<uint8_t, 64> du;
         const uint8_t* const from = reinterpret_cast<const uint8_t*>(staged_);
         uint8_t* const to = reinterpret_cast<uint8_t*>(batch_.triangles + batch_.count);
-        for (size_t i = 0; i < staged_count_ * sizeof(SetupTriangle); i += hn::Lanes(du)) hn::Stream(hn::Load(du, from + i), du, to + i);
-        batch_.count += uint32_t(staged_count_);
-        batch_.counts.binned += staged_count_;
+        for (size_t i = 0; i < staged * sizeof(SetupTriangle); i += hn::Lanes(du)) hn::Stream(hn::Load(du, from + i), du, to + i);
+        batch_.count += uint32_t(staged);
+        batch_.counts.binned += staged;
         return triangles;
     }
 
@@ -420,15 +417,42 @@ class ClusterSetup {
         hn::Store(hn::DemoteTo(di, hn::Add(hn::Mul(first_row, set(grid_.tiles_x())), first_column)), di, out_.first_tile + at);
     }
 
-    /// The triangle set up as number i of its group, the cluster's triangle t.
-    HWY_INLINE void write(size_t i, size_t t, uint32_t primitive, uint32_t first_id) {
-        const bool late = (late_ >> t & 1u) != 0;
-        if (late || (in_no_tile_ >> i & 1u) != 0) {
-            ++(late ? batch_.counts.culled_backface : batch_.counts.culled_frustum);
-            return;
+    /// Puts the group's triangles that are not dropped into staged_, with their bin entries; returns how many those are.
+    HWY_INLINE size_t stage(const uint8_t* list, size_t count) {
+        const uint64_t back = back_, late = late_, in_no_tile = in_no_tile_, in_one_tile = in_one_tile_, compact = compact_;
+        const uint32_t* const primitives = mesh_->primitive.data() + cluster_->first_triangle;
+        const uint32_t first_id = draw_->first_triangle_id, first_index = batch_.count;
+        BinEntry* entry = batch_.entries.data() + entry_count_;
+        size_t staged = 0;
+        for (size_t i = 0; i < count; ++i) {
+            const size_t t = list[i];
+            const bool is_late = (late >> t & 1u) != 0;
+            if (is_late || (in_no_tile >> i & 1u) != 0) {
+                ++(is_late ? batch_.counts.culled_backface : batch_.counts.culled_frustum);
+                continue;
+            }
+            SetupTriangle& to = staged_[staged];
+            const uint32_t index = first_index + uint32_t(staged);
+            write(i, primitives[t], first_id, (back >> t & 1u) == 0, (compact >> i & 1u) != 0, to);
+            if ((in_one_tile >> i & 1u) != 0) {
+                *entry++ = {uint32_t(out_.first_tile[i]), index};
+            } else {
+                entry_count_ = size_t(entry - batch_.entries.data());
+                const bool entered = enter_tiles(to, index);
+                entry = batch_.entries.data() + entry_count_;
+                if (!entered) {
+                    ++batch_.counts.culled_frustum;
+                    continue;
+                }
+            }
+            ++staged;
         }
-        SetupTriangle& to = staged_[staged_count_];
-        const uint32_t index = batch_.count + uint32_t(staged_count_);
+        entry_count_ = size_t(entry - batch_.entries.data());
+        return staged;
+    }
+
+    /// The triangle set up as number i of its group.
+    HWY_INLINE void write(size_t i, uint32_t primitive, uint32_t first_id, bool front_facing, bool compact, SetupTriangle& to) {
         for (size_t k = 0; k < 3; ++k) {
             to.x[k] = out_.x[k][i];
             to.y[k] = out_.y[k][i];
@@ -442,19 +466,14 @@ class ClusterSetup {
         to.depth_max = out_.depth_max[i];
         to.primitive = primitive;
         to.triangle_id = first_id + primitive;
-        to.front_facing = (back_ >> t & 1u) == 0;
+        // Assigned, a bit of a mask is written first and then read again to be cut off.
+        const uint8_t front = front_facing;
+        std::memcpy(&to.front_facing, &front, 1);
         // By first corner, and winding.
-        static constexpr uint8_t kCorners[8][4] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}, {}};
-        std::memcpy(to.corner, kCorners[out_.arrangement[i]], 3);
-        to.compact = (compact_ >> i & 1u) != 0;
-
-        if ((in_one_tile_ >> i & 1u) != 0) {
-            batch_.entries[entry_count_++] = {uint32_t(out_.first_tile[i]), index};
-        } else if (!enter_tiles(to, index)) {
-            ++batch_.counts.culled_frustum;
-            return;
-        }
-        ++staged_count_;
+        static constexpr uint32_t kCorners[8] = {0x020100, 0x000201, 0x010002, 0, 0x010200, 0x020001, 0x000102, 0};
+        static_assert(offsetof(SetupTriangle, compact) == offsetof(SetupTriangle, corner) + 3);
+        const uint32_t shape = kCorners[out_.arrangement[i]] | uint32_t{compact} << 24;
+        std::memcpy(reinterpret_cast<uint8_t*>(&to) + offsetof(SetupTriangle, corner), &shape, 4);
     }
 
     /// Leaves room for the entries of as many triangles as one cluster has.
@@ -525,7 +544,6 @@ class ClusterSetup {
     uint64_t in_one_tile_ = 0, in_no_tile_ = 0, compact_ = 0;  // bit per triangle of the group
     size_t entry_count_ = 0;
     SetupTriangle staged_[kGroup];
-    size_t staged_count_ = 0;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -10,6 +10,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
 
 namespace rawtexel::shading {
 namespace {
@@ -120,24 +123,44 @@ TEST(UnlitRender, EqualsTheReferenceOnSilhouettes) {
 
 /// Who asks for layers has everything interpolated; who does not, in blocks that one triangle fills, coordinates alone.
 TEST(UnlitRender, IsTheSameWhateverElseIsInterpolated) {
-    RenderOptions options = converged();
-    options.width = 93;
-    options.height = 61;
-    options.spp = 4;
-    options.camera = floor_camera();
+    RenderOptions plain = converged();
+    plain.width = 93;
+    plain.height = 61;
+    plain.spp = 4;
+    plain.camera = floor_camera();
+    std::map<std::string, RenderOptions> cases;
+    cases["plain"] = plain;
+    (cases["points of pixels' own"] = plain).pixel_jitter = PixelJitter::Pixel;
+    (cases["quads"] = plain).footprint.derivatives = Derivatives::Quad;
+    (cases["footprints of samples"] = plain).footprint.area = FootprintArea::Sample;
+    (cases["coordinates jittered"] = plain).filtering.texture_jitter = TextureJitter::Affine;
+    (cases["drawn texels"] = plain).filtering.estimator = texunit::Estimator::Reservoir;
+
     const std::unique_ptr<Executor> executor = make_executor(ExecutorKind::Threads, 1);
-    using texunit::Wrap;
-    for (const PixelJitter jitter : {PixelJitter::Frame, PixelJitter::Pixel}) {
-        for (const bool textured : {true, false}) {
-            Scene scene = make_floor({.wrap_s = Wrap::ClampToEdge, .wrap_t = Wrap::MirroredRepeat});
-            if (!textured) scene.materials[0].maps[kBaseColor].texture = -1;
-            options.pixel_jitter = jitter;
-            options.aovs = {};
-            const Image alone = render(scene, Lighting{}, options, *executor).radiance;
-            options.aovs = {Aov::Normal};
-            EXPECT_TRUE(same_bits(render(scene, Lighting{}, options, *executor).radiance, alone)) << to_string(jitter) << textured;
+    const auto image = [&](const Scene& scene, RenderOptions options, std::vector<Aov> aovs) {
+        options.aovs = std::move(aovs);
+        return render(scene, Lighting{}, options, *executor).radiance;
+    };
+    for (const auto& [name, options] : cases) {
+        for (const bool colored : {false, true}) {
+            Scene scene = make_floor({.wrap_s = texunit::Wrap::ClampToEdge, .wrap_t = texunit::Wrap::MirroredRepeat});
+            if (colored) scene.meshes[0].colors = {{1, 0, 0.5f, 1}, {0, 1, 0.25f, 1}, {0.5f, 0.75f, 1, 1}, {0.25f, 0.5f, 0, 1}};
+            const Image alone = image(scene, options, {});
+            EXPECT_TRUE(same_bits(alone, image(scene, options, {Aov::Normal}))) << name << colored;
+            EXPECT_TRUE(same_bits(alone, image(scene, options, {Aov::Lod}))) << name << colored;
         }
     }
+    Scene untextured = make_floor({});
+    untextured.materials[0].maps[kBaseColor].texture = -1;
+    EXPECT_TRUE(same_bits(image(untextured, plain, {}), image(untextured, plain, {Aov::Normal})));
+
+    // Vertex colours have the rest interpolated too.
+    plain.aovs = {Aov::Normal, Aov::Depth, Aov::Uv};
+    Scene white = make_floor({}), colored = make_floor({});
+    colored.meshes[0].colors.assign(4, glm::vec4(1.0f));
+    const RenderResult of_white = render(white, Lighting{}, plain, *executor), of_colored = render(colored, Lighting{}, plain, *executor);
+    for (size_t i = 0; i < plain.aovs.size(); ++i)
+        EXPECT_TRUE(same_bits(of_white.layers[i].image, of_colored.layers[i].image)) << of_white.layers[i].name;
 }
 
 TEST(UnlitRender, EqualsTheReferenceFarFromTheTextureOrigin) {
