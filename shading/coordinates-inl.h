@@ -107,15 +107,14 @@ HWY_INLINE void interpolate_coordinates(const CoordinateState& state, const Mesh
     }
 }
 
-/// The same within one triangle, whose weights at `points` nobody else asks for.
-HWY_INLINE void interpolate_coordinates(const CoordinateState& state, const Mesh& mesh, const OneTriangle& corners,
-                                        const raster::Anchor& anchor, const raster::BlockPoints& points, texunit::WaveCoordinates& out) {
-    const CornerPair pair = corner_pair(state, mesh, corners, 0);
+/// The same within one triangle, of these corners, whose weights at `points` nobody else asks for.
+HWY_INLINE void interpolate_coordinates(const CornerPair& corners, const raster::Anchor& anchor, const raster::BlockPoints& points,
+                                        texunit::WaveCoordinates& out) {
     for (size_t i = 0; i < texunit::kWaveLanes; i += hn::Lanes(FloatLanes())) {
         WeightLanes weights = raster::HWY_NAMESPACE::anchored_lanes(anchor, points, i);
         const CornerWeights w = clamped({weights.b1, weights.b2});
         weights.b1 = w.b1, weights.b2 = w.b2;
-        interpolate_pair(pair, weights, i, out);
+        interpolate_pair(corners, weights, i, out);
     }
 }
 

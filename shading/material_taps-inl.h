@@ -9,8 +9,8 @@
 #include "shading/draw_state.h"
 #include "shading/fragment.h"
 #include "shading/lanes-inl.h"
+#include "texunit/drawn-inl.h"
 #include "texunit/lanes-inl.h"
-#include "texunit/shared_draw.h"
 
 #include <bit>
 #include <cmath>
@@ -65,7 +65,7 @@ class MaterialTaps {
     HWY_INLINE void for_each(const TapPlan& plan, bool enumerates, const Use& use) {
         const texunit::LookupSet& set = lookup_set(plan);
         if (enumerates) {
-            return texunit::enumerate_shared(set, [&](const texunit::SharedTap& tap) {
+            return texunit::HWY_NAMESPACE::enumerate_shared_lanes(set, [&](const texunit::SharedTap& tap) {
                 if (hear) hear({&plan, -1, &tap, nullptr, 0});
                 use(tap, 0);
             });
@@ -73,11 +73,12 @@ class MaterialTaps {
         for (int n = 0; n < fragments_.material->plans.taps; ++n) {
             find_numbers(n, 0);
             const texunit::DrawNumbers* numbers = &positive_;
-            texunit::draw_shared(set, positive_, negative_, [&](const texunit::SharedTap& tap) {
+            const auto use_tap = [&](const texunit::SharedTap& tap) {
                 if (hear) hear({&plan, -1, &tap, numbers, n});
                 numbers = &negative_;
                 use(tap, n);
-            });
+            };
+            draw(set, use_tap);
         }
     }
 
@@ -89,11 +90,12 @@ class MaterialTaps {
             find_numbers(n, 1 + uint32_t(slot));
             const texunit::LookupSet& set = lookup_set(only(plan, MapSlot(slot)));
             const texunit::DrawNumbers* numbers = &positive_;
-            texunit::draw_shared(set, positive_, negative_, [&](const texunit::SharedTap& tap) {
+            const auto use_tap = [&](const texunit::SharedTap& tap) {
                 if (hear) hear({&plan, slot, &tap, numbers, n});
                 numbers = &negative_;
                 use(MapSlot(slot), tap, n);
-            });
+            };
+            draw(set, use_tap);
         }
     }
 
@@ -107,6 +109,13 @@ class MaterialTaps {
     WaveMask lanes() const { return fragments_.lanes; }
 
   private:
+    /// Draws from the set with the numbers found last.
+    template <class UseTap>
+    HWY_INLINE void draw(const texunit::LookupSet& set, const UseTap& use) const {
+        // By reference, as a copy would take memory for each wave.
+        texunit::HWY_NAMESPACE::draw_shared_lanes(set, positive_, negative_, std::cref(use));
+    }
+
     HWY_NOINLINE void fill_inactive() {
         for (int k = 0; k < material().coordinate_count; ++k)
             texunit::HWY_NAMESPACE::fill_inactive(fragments_.coordinates[k], fragments_.lanes, filled_[k]);
@@ -155,13 +164,13 @@ class MaterialTaps {
     void find_numbers(const texunit::RandomAddress& address, texunit::DrawNumbers& positive, texunit::DrawNumbers& negative) {
         // Who listens is told of all roles.
         const texunit::NumberRoles roles = hear ? texunit::NumberRoles{} : material().plans.roles;
-        draw_numbers(address, positive, material().plans.noise, roles, states_);
+        texunit::HWY_NAMESPACE::number_lanes(address, false, material().plans.noise, roles, states_, positive);
         // Without negative lobes nobody asks for their numbers.
         if (!material().plans.roles.sign) return;
         if (material().plans.common_numbers) {
             negative = positive;
         } else {
-            negative_draw_numbers(address, negative, material().plans.noise, roles, states_);
+            texunit::HWY_NAMESPACE::number_lanes(address, true, material().plans.noise, roles, states_, negative);
         }
     }
 
@@ -198,7 +207,7 @@ HWY_INLINE void read_tap(const MaterialState& material, const TapPlan& plan, con
     for (int slot = 0; slot < kMapSlots; ++slot) {
         if (!plan.holds(slot)) continue;
         const MapState& map = material.maps[size_t(slot)];
-        read_drawn_wave(*map.texture, map.sampler, tap.draw[plan.lookup_of[size_t(slot)]], maps[slot]);
+        texunit::HWY_NAMESPACE::read_drawn_lanes(*map.texture, map.sampler, tap.draw[plan.lookup_of[size_t(slot)]], maps[slot]);
     }
 }
 
@@ -226,7 +235,7 @@ HWY_NOINLINE inline void average_taps(MaterialTaps& taps, const TapPlan& plan, t
     texunit::WaveColor texel;
     const auto add = [&](int slot, const texunit::TexelDraw& draw, const texunit::SharedTap& tap) HWY_ATTR {
         const MapState& map = material.maps[size_t(slot)];
-        read_drawn_wave(*map.texture, map.sampler, draw, texel);
+        texunit::HWY_NAMESPACE::read_drawn_lanes(*map.texture, map.sampler, draw, texel);
         add_weighed(texel, tap.weight, share, tap.lanes, maps[slot]);
     };
     if (material.sharing == NumberSharing::PerMap) {
@@ -256,7 +265,7 @@ HWY_INLINE void for_each_shaded_tap(MaterialTaps& taps, const TapPlan& plan, tex
                 if (plan.holds(slot)) maps[slot] = {};
             taps.for_each_map(plan, n, [&](MapSlot slot, const texunit::SharedTap& tap, int) HWY_ATTR {
                 const MapState& map = material.maps[slot];
-                read_drawn_wave(*map.texture, map.sampler, tap.draw[0], texel);
+                texunit::HWY_NAMESPACE::read_drawn_lanes(*map.texture, map.sampler, tap.draw[0], texel);
                 add_weighed(texel, tap.weight, 1.0f, tap.lanes, maps[slot]);
             });
             use(weight, taps.lanes());

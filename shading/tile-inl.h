@@ -293,31 +293,47 @@ class TileRenderer {
         }
     }
 
-    /// Whether coordinates are all that shading interpolates in a wave that sees this triangle alone.
-    bool interpolates_coordinates_alone(const DrawState& draw, const raster::SetupTriangle& triangle) const {
+    /// What blocks in a row that one triangle fills have in common.
+    struct FillingTriangle {
+        uint32_t index = raster::kNoTriangle;
+        const DrawState* draw = nullptr;
+        bool has_coordinates_alone = false;  ///< shading interpolates nothing else
+        CornerPair corners{};                ///< where there are such
+    };
+    const FillingTriangle& filling_triangle(uint32_t index) {
+        if (filling_.index != index) find_filling_triangle(index);
+        return filling_;
+    }
+
+    HWY_NOINLINE void find_filling_triangle(uint32_t index) {
+        const raster::SetupTriangle& triangle = frame_.triangle(index);
+        const DrawState& draw = inputs_.draws[triangle.draw];
+        const MaterialState& material = *draw.material;
         const bool plain = !inputs_.derivatives.quad && inputs_.derivatives.scale == 1.0f && !steps_.taken();
-        return plain && draw.material->interpolates_coordinates_alone() && draw.mesh->colors.empty() && !triangle.compact &&
-               !wants_shape(*draw.material->material);
+        filling_.index = index;
+        filling_.draw = &draw;
+        filling_.has_coordinates_alone = plain && material.interpolates_coordinates_alone() && draw.mesh->colors.empty() &&
+                                         !triangle.compact && !wants_shape(*material.material);
+        if (!filling_.has_coordinates_alone || material.coordinate_count == 0) return;
+        const OneTriangle corners{&draw.mesh->indices[size_t(triangle.primitive) * 3]};
+        filling_.corners = corner_pair(material.coordinates[0], *draw.mesh, corners, 0);
     }
 
     /// A pass for such a triangle, whose weights are not kept.
-    void shade_coordinates_alone(const DrawState& draw, const raster::SetupTriangle& triangle, WaveMask pass) {
+    void shade_coordinates_alone(const FillingTriangle& filling, WaveMask pass) {
         shapes_ = false;
-        const MaterialState& material = *draw.material;
-        if (material.coordinate_count > 0) {
-            const OneTriangle corners{&draw.mesh->indices[size_t(triangle.primitive) * 3]};
-            const raster::Anchor& anchor = latest_anchors_.of(wave_.setup_index[0], wave_.x, wave_.y);
-            interpolate_coordinates(material.coordinates[0], *draw.mesh, corners, anchor, sample_block().points, fragment_.coordinates[0]);
+        if (filling.draw->material->coordinate_count > 0) {
+            const raster::Anchor& anchor = latest_anchors_.of(filling.index, wave_.x, wave_.y);
+            interpolate_coordinates(filling.corners, anchor, sample_block().points, fragment_.coordinates[0]);
         }
-        shade_pass(draw, pass);
+        shade_pass(*filling.draw, pass);
     }
 
     /// One masked pass per draw that the wave sees.
     void shade_surfaces(WaveMask surface) {
         if (wave_.same_triangle) {
-            const raster::SetupTriangle& triangle = frame_.triangle(wave_.setup_index[0]);
-            const DrawState& draw = inputs_.draws[triangle.draw];
-            if (interpolates_coordinates_alone(draw, triangle)) return shade_coordinates_alone(draw, triangle, surface);
+            const FillingTriangle& filling = filling_triangle(wave_.setup_index[0]);
+            if (filling.has_coordinates_alone) return shade_coordinates_alone(filling, surface);
         }
         find_barycentrics(inputs_.derivatives, sample_block(), surface, weights_);
         if (inputs_.shadow_taps == ShadowTaps::One) find_shadow_numbers();
@@ -582,6 +598,7 @@ class TileRenderer {
     bool in_branch_ = false;  ///< what is shaded is blended with other branches
     // Lanes that nobody asked for are computed along with their neighbours, so they hold numbers from the start.
     PixelWave wave_{};
+    FillingTriangle filling_;
     raster::LatestAnchors latest_anchors_{frame_};
     raster::BarycentricWave weights_{};
     FragmentWave fragment_{};

@@ -188,7 +188,7 @@ HWY_INLINE void read_drawn(Texture& texture, const SamplerState& sampler, const 
     gather<storage>(texture, index, channels_of(out));
 }
 
-HWY_INLINE void read_drawn_lanes(Texture& texture, const SamplerState& sampler, const TexelDraw& draw, WaveColor& out) {
+HWY_INLINE void read_drawn_texels(Texture& texture, const SamplerState& sampler, const TexelDraw& draw, WaveColor& out) {
     switch (texture.texel_layout().storage) {
         case StorageClass::Packed32: return read_drawn<StorageClass::Packed32>(texture, sampler, draw, out);
         case StorageClass::Packed64: return read_drawn<StorageClass::Packed64>(texture, sampler, draw, out);

@@ -8,7 +8,7 @@
 #include <hwy/foreach_target.h>
 
 #include "texunit/draw-inl.h"
-#include "texunit/noise-inl.h"
+#include "texunit/drawn-inl.h"
 #include "texunit/random-inl.h"
 #include "texunit/shared_draw-inl.h"
 
@@ -23,8 +23,8 @@ struct TexelDimensions {
 constexpr TexelDimensions kPositive{Dimension::TapX, Dimension::TapY, Dimension::Sign};
 constexpr TexelDimensions kNegative{Dimension::NegativeX, Dimension::NegativeY, Dimension::NegativeSign};
 
-void hash_numbers(const RandomAddress& first, bool negative, const NumberRoles& roles, RandomStates& states, DrawNumbers& numbers) {
-    const TexelDimensions& texel = negative ? kNegative : kPositive;
+HWY_INLINE void hash_numbers(const RandomAddress& first, const TexelDimensions& texel, const NumberRoles& roles, RandomStates& states,
+                             DrawNumbers& numbers) {
     const auto hash = [&](Dimension dimension, WaveFloat& to) HWY_ATTR { random_wave(states.of(first, dimension), first.x, first.y, to); };
     hash(texel.x, numbers.x);
     hash(texel.y, numbers.y);
@@ -33,8 +33,7 @@ void hash_numbers(const RandomAddress& first, bool negative, const NumberRoles& 
     if (roles.probe) hash(Dimension::Probe, numbers.probe);
 }
 
-void find_noise(Noise noise, const RandomAddress& first, bool negative, const NumberRoles& roles, DrawNumbers& numbers) {
-    const TexelDimensions& texel = negative ? kNegative : kPositive;
+void find_noise(Noise noise, const RandomAddress& first, const TexelDimensions& texel, const NumberRoles& roles, DrawNumbers& numbers) {
     const auto of = [&](Dimension dimension) {
         RandomAddress address = first;
         address.dimension = dimension;
@@ -44,6 +43,13 @@ void find_noise(Noise noise, const RandomAddress& first, bool negative, const Nu
     if (roles.sign) noise_wave(noise, of(texel.sign), numbers.sign);
     if (roles.level) noise_wave(noise, of(Dimension::Level), numbers.level);
     if (roles.probe) noise_wave(noise, of(Dimension::Probe), numbers.probe);
+}
+
+void number_lanes(const RandomAddress& first, bool negative, Noise noise, const NumberRoles& roles, RandomStates& states,
+                  DrawNumbers& numbers) {
+    const TexelDimensions& texel = negative ? kNegative : kPositive;
+    if (noise == Noise::White) return hash_numbers(first, texel, roles, states, numbers);
+    find_noise(noise, first, texel, roles, numbers);
 }
 
 /// Coordinates whose inactive lanes repeat an active one, and the layers.
@@ -85,15 +91,15 @@ void draw_absolute(Texture& texture, const SamplerState& sampler, const WaveCoor
     draw_lanes(flat_lookup(texture.levels(), sampler, coordinates), mask, numbers, Lobes::Magnitude, {nullptr, &factor}, drawn);
 }
 
-void read(Texture& texture, const SamplerState& sampler, const TexelDraw& drawn, WaveColor& out) {
-    read_drawn_lanes(texture, sampler, drawn, out);
+void read_drawn_lanes(Texture& texture, const SamplerState& sampler, const TexelDraw& drawn, WaveColor& out) {
+    read_drawn_texels(texture, sampler, drawn, out);
 }
 
 void draw_and_read(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
                    WaveColor& out, const WaveFloat* layer) {
     TexelDraw drawn;
     draw(texture, sampler, at, mask, numbers, drawn, layer);
-    read_drawn_lanes(texture, sampler, drawn, out);
+    read_drawn_texels(texture, sampler, drawn, out);
 }
 
 void count(const Texture& texture, const TexelDraw& drawn, WaveMask mask, bool first, FetchCounter& counter) {
@@ -107,10 +113,10 @@ void record(const Texture& texture, const TexelDraw& drawn, WaveMask mask, bool,
     hear_texel(drawn.level, drawn.x, drawn.y, mask, drawn.border, recorder);
 }
 
-void draw_together(const LookupSet& set, const DrawNumbers& positive, const DrawNumbers& negative, const UseTap& use) {
+void draw_shared_lanes(const LookupSet& set, const DrawNumbers& positive, const DrawNumbers& negative, const UseTap& use) {
     draw_set(set, positive, negative, use);
 }
-void enumerate(const LookupSet& set, const UseTap& use) { enumerate_set(set, use); }
+void enumerate_shared_lanes(const LookupSet& set, const UseTap& use) { enumerate_set(set, use); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace rawtexel::texunit
@@ -119,17 +125,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rawtexel::texunit {
 
-HWY_EXPORT(hash_numbers);
-HWY_EXPORT(find_noise);
+HWY_EXPORT(number_lanes);
 HWY_EXPORT(draw);
 HWY_EXPORT(draw_signed);
 HWY_EXPORT(draw_absolute);
-HWY_EXPORT(read);
+HWY_EXPORT(read_drawn_lanes);
 HWY_EXPORT(draw_and_read);
-HWY_EXPORT(draw_together);
+HWY_EXPORT(draw_shared_lanes);
 HWY_EXPORT(count);
 HWY_EXPORT(record);
-HWY_EXPORT(enumerate);
+HWY_EXPORT(enumerate_shared_lanes);
 
 NumberRoles roles_of(const SamplerState& sampler) {
     const bool ellipse = sampler.ellipse > 0;
@@ -137,29 +142,16 @@ NumberRoles roles_of(const SamplerState& sampler) {
     return {.level = ellipse || sampler.mip == MipMode::Linear, .probe = ellipse || !sampler.is_isotropic(), .sign = ellipse || !one_sign};
 }
 
-namespace {
-
-void find_numbers(const RandomAddress& first, bool negative, Noise noise, const NumberRoles& roles, RandomStates& states,
-                  DrawNumbers& numbers) {
-    if (noise == Noise::White) return HWY_DYNAMIC_DISPATCH(hash_numbers)(first, negative, roles, states, numbers);
-    HWY_DYNAMIC_DISPATCH(find_noise)(noise, first, negative, roles, numbers);
+void draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise, const NumberRoles& roles, RandomStates& states) {
+    HWY_DYNAMIC_DISPATCH(number_lanes)(first, false, noise, roles, states, numbers);
 }
-
-}  // namespace
-
 void draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise, const NumberRoles& roles) {
     RandomStates states;
-    find_numbers(first, false, noise, roles, states, numbers);
-}
-void draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise, const NumberRoles& roles, RandomStates& states) {
-    find_numbers(first, false, noise, roles, states, numbers);
+    draw_numbers(first, numbers, noise, roles, states);
 }
 void negative_draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise, const NumberRoles& roles) {
     RandomStates states;
-    find_numbers(first, true, noise, roles, states, numbers);
-}
-void negative_draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise, const NumberRoles& roles, RandomStates& states) {
-    find_numbers(first, true, noise, roles, states, numbers);
+    HWY_DYNAMIC_DISPATCH(number_lanes)(first, true, noise, roles, states, numbers);
 }
 
 namespace {
@@ -205,7 +197,7 @@ void record_drawn_wave(const Texture& texture, const TexelDraw& drawn, WaveMask 
 }
 
 void read_drawn_wave(Texture& texture, const SamplerState& sampler, const TexelDraw& drawn, WaveColor& out) {
-    HWY_DYNAMIC_DISPATCH(read)(texture, sampler, drawn, out);
+    HWY_DYNAMIC_DISPATCH(read_drawn_lanes)(texture, sampler, drawn, out);
 }
 
 void sample_drawn_wave(Texture& texture, const SamplerState& sampler, const WaveCoordinates& at, WaveMask mask, const DrawNumbers& numbers,
@@ -216,9 +208,9 @@ void sample_drawn_wave(Texture& texture, const SamplerState& sampler, const Wave
 }
 
 void draw_shared(const LookupSet& set, const DrawNumbers& positive, const DrawNumbers& negative, const UseTap& use) {
-    HWY_DYNAMIC_DISPATCH(draw_together)(set, positive, negative, use);
+    HWY_DYNAMIC_DISPATCH(draw_shared_lanes)(set, positive, negative, use);
 }
-void enumerate_shared(const LookupSet& set, const UseTap& use) { HWY_DYNAMIC_DISPATCH(enumerate)(set, use); }
+void enumerate_shared(const LookupSet& set, const UseTap& use) { HWY_DYNAMIC_DISPATCH(enumerate_shared_lanes)(set, use); }
 
 bool can_enumerate(const LookupSet& set) {
     if (set.count == 1) return true;

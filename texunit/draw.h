@@ -31,9 +31,8 @@ NumberRoles roles_of(const SamplerState& sampler);
 void draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise = Noise::White, const NumberRoles& roles = {});
 /// Those of the negative weights' texel: its own but for level and probe, which both share.
 void negative_draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise = Noise::White, const NumberRoles& roles = {});
-/// The same from states that the caller keeps, for waves that follow each other.
+/// draw_numbers from states that the caller keeps, for waves that follow each other.
 void draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise, const NumberRoles& roles, RandomStates& states);
-void negative_draw_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise, const NumberRoles& roles, RandomStates& states);
 /// numbers.z alone, for volumes and cube maps.
 void draw_depth_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise = Noise::White);
 void negative_draw_depth_numbers(const RandomAddress& first, DrawNumbers& numbers, Noise noise = Noise::White);

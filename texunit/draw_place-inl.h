@@ -129,6 +129,11 @@ struct DrawnPlace {
     WavePosition of_probes;
 };
 
+HWY_INLINE void take_base_level(DrawnPlace& place) {
+    place.level = {};
+    place.choice.magnify = kWaveFull, place.choice.mixes = false;
+}
+
 /// The level and the probe, where there is a choice.
 HWY_NOINLINE inline void choose_place(const DrawnLookup& lookup, const DrawNumbers& numbers, DrawnPlace& place) {
     const SamplerState& sampler = *lookup.sampler;
@@ -142,7 +147,8 @@ HWY_NOINLINE inline void choose_place(const DrawnLookup& lookup, const DrawNumbe
             place.position = &place.of_probes;
         }
     } else {
-        choose_levels(*lookup.levels, sampler, *lookup.at, place.choice, nullptr);
+        if (magnifies_throughout(*lookup.levels, sampler, *lookup.at)) return take_base_level(place);
+        select_levels(*lookup.levels, sampler, *lookup.at, place.choice);
     }
     if (!place.choice.mixes) {
         place.level = place.choice.finer;
@@ -154,8 +160,7 @@ HWY_NOINLINE inline void choose_place(const DrawnLookup& lookup, const DrawNumbe
 /// All lanes of the lookup's coordinates are active or repeat one that is.
 HWY_INLINE void draw_place(const DrawnLookup& lookup, const DrawNumbers& numbers, DrawnPlace& place) {
     if (!lookup.sampler->is_isotropic() || !needs_no_level(*lookup.sampler, nullptr)) return choose_place(lookup, numbers, place);
-    place.level = {};
-    place.choice.magnify = kWaveFull, place.choice.mixes = false;
+    take_base_level(place);
 }
 
 }  // namespace HWY_NAMESPACE
