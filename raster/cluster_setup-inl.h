@@ -466,14 +466,17 @@ class ClusterSetup {
         to.depth_max = out_.depth_max[i];
         to.primitive = primitive;
         to.triangle_id = first_id + primitive;
-        // Assigned, a bit of a mask is written first and then read again to be cut off.
-        const uint8_t front = front_facing;
-        std::memcpy(&to.front_facing, &front, 1);
+        write_flag(front_facing, to.front_facing);
         // By first corner, and winding.
-        static constexpr uint32_t kCorners[8] = {0x020100, 0x000201, 0x010002, 0, 0x010200, 0x020001, 0x000102, 0};
-        static_assert(offsetof(SetupTriangle, compact) == offsetof(SetupTriangle, corner) + 3);
-        const uint32_t shape = kCorners[out_.arrangement[i]] | uint32_t{compact} << 24;
-        std::memcpy(reinterpret_cast<uint8_t*>(&to) + offsetof(SetupTriangle, corner), &shape, 4);
+        static constexpr uint8_t kCorners[8][4] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}, {}};
+        std::memcpy(to.corner, kCorners[out_.arrangement[i]], 3);
+        write_flag(compact, to.compact);
+    }
+
+    /// As a byte: assigned, a bit of a mask is written along with others first, and then read again to be cut off.
+    static HWY_INLINE void write_flag(bool flag, bool& to) {
+        const uint8_t byte = flag;
+        std::memcpy(&to, &byte, 1);
     }
 
     /// Leaves room for the entries of as many triangles as one cluster has.

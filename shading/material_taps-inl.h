@@ -9,7 +9,7 @@
 #include "shading/draw_state.h"
 #include "shading/fragment.h"
 #include "shading/lanes-inl.h"
-#include "texunit/drawn-inl.h"
+#include "texunit/draw-inl.h"
 #include "texunit/lanes-inl.h"
 
 #include <bit>

@@ -8,7 +8,7 @@
 #include <hwy/foreach_target.h>
 
 #include "texunit/draw-inl.h"
-#include "texunit/drawn-inl.h"
+#include "texunit/draw_lanes-inl.h"
 #include "texunit/random-inl.h"
 #include "texunit/shared_draw-inl.h"
 

@@ -1,5 +1,5 @@
 // Draws of lookups that share their numbers, and the list of all that they can draw. Meaning: texunit/shared_draw.h.
-#include "texunit/draw-inl.h"
+#include "texunit/draw_lanes-inl.h"
 #include "texunit/number_cells.h"
 #include "texunit/shared_draw.h"
 
@@ -64,14 +64,15 @@ HWY_INLINE bool has_negative_lobes(const DrawnSet& set) {
     return std::any_of(set.lookup, set.lookup + set.count, [](const DrawnLookup& l) { return has_negative_lobes(*l.sampler); });
 }
 
+/// The slices that a lookup draws from.
+HWY_INLINE WaveInt slice_of(const DrawnLookup& lookup) {
+    return HWY_UNLIKELY(lookup.position.slice != nullptr) ? *lookup.position.slice : WaveInt{};
+}
+
 /// A texel of one lookup.
 HWY_INLINE void draw_one(const DrawnSet& set, int k, const DrawNumbers& numbers, Lobes lobes, const LobeMass& mass, TexelDraw& draw) {
     const DrawnLookup& lookup = set.lookup[k];
-    if (HWY_UNLIKELY(lookup.position.slice != nullptr)) {
-        draw.slice = *lookup.position.slice;
-    } else {
-        draw.slice = {};
-    }
+    draw.slice = slice_of(lookup);
     draw_lanes(lookup, set.mask, numbers, lobes, mass, draw);
 }
 
@@ -350,7 +351,7 @@ HWY_INLINE void enumerate_ellipse(const DrawnSet& set, const Use& use) {
     SamplerState state = *lookup.sampler;
     state.hybrid_bias = std::numeric_limits<float>::infinity();
     SharedTap tap;
-    tap.draw[0].slice = lookup.position.slice != nullptr ? *lookup.position.slice : WaveInt{};
+    tap.draw[0].slice = slice_of(lookup);
     for (WaveMask rest = set.mask; rest != 0; rest &= rest - 1) {
         const auto lane = int(hwy::Num0BitsBelowLS1Bit_Nonzero32(rest));
         const EllipseLookup at = ellipse_lookup(*lookup.at, lane);
